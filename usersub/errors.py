@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+"""Exceptions of usersub. Every message names the thing, its value and what was expected."""
+
+from __future__ import annotations
+
+
+class Error(Exception):
+    """Base of all exceptions of usersub.
+
+    Attributes:
+        status: the C core's status code (`usersub.statuses`), or None.
+    """
+
+    status: int | None = None
+
+
+class SceneError(Error, ValueError):
+    """A setting, array or call of the host is wrong; nothing has changed."""
+
+
+class AbiError(Error):
+    """Two parts do not fit: argument counts, generations, table versions, precisions."""
+
+
+class CompileError(Error):
+    """A compiler or translator refused user code; the message has file, line and its words."""
+
+
+class MissingTool(Error):  # noqa: N818 - reads as a sentence
+    """A compiler or an optional package is missing; the message says how to get it."""
+
+
+class LoadError(Error):
+    """A file or library cannot be loaded or holds no interface."""
+
+
+class RoutineError(Error):
+    """User code raised, stopped, crashed or returned NaN; the driver's state is as before.
+
+    Attributes:
+        point: contact point (from 0), or None if it is not known.
+    """
+
+    point: int | None = None
+
+
+class ContractError(RoutineError):
+    """User code broke a rule of its interface."""
+
+
+class StateError(Error, ValueError):
+    """Saved state does not fit: version, byte order, sizes or check sum."""

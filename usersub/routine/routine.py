@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""A routine: user code behind one interface, ready to be called."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from usersub import abi
+
+#: How an entry is called; the numbers are those of the C core (USUB_STYLE_...).
+FULL, BLOCK = 0, 1
+
+#: What a routine does with an argument; the numbers are those of `usub_routine_set_uses`.
+UNUSED, READS, WRITES, READS_AND_WRITES = 0, 1, 2, 3
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An address that can be called: `style` FULL (published argument list with hidden character
+    lengths) or BLOCK (`int f(void **argv)`); `keep` keeps the code alive."""
+
+    address: int
+    style: int
+    keep: object = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True)
+class Routine:
+    """User code behind one interface.
+
+    Attributes:
+        interface: interface and generation.
+        language: "python", "c", "c++", "fortran", "library" or "pointer".
+        name: for people: function name or file name.
+        origin: where it comes from: "file:line", library path or "".
+        make_entry: makes the entry for a precision ("double", "single").
+        uses: per argument UNUSED, READS, WRITES or READS_AND_WRITES; None if not known.
+        block_safe: FRIC_COEF may be called with more than one point a call.
+        thread_safe: blocks may run in different threads.
+        replay: makes the entry of a slower twin that records why it fails; None if there is none.
+    """
+
+    interface: abi.Interface
+    language: str
+    name: str
+    origin: str
+    make_entry: Callable[[str], Entry] = field(repr=False)
+    uses: tuple[int, ...] | None = None
+    block_safe: bool = False
+    thread_safe: bool = False
+    replay: Callable[[str], Entry] | None = field(default=None, repr=False)
+
+    def entry(self, precision: str = "double") -> Entry:
+        """The entry for `precision`, compiled at the first request."""
+        return self.make_entry(precision)
