@@ -140,6 +140,9 @@ int32_t usub_set_points(usub_driver *driver, int32_t points);
 /** Sets step and increment number and the times; all at the end of the increment. */
 int32_t usub_set_time(usub_driver *driver, int32_t step, int32_t increment, double step_time,
                       double total_time, double time_increment);
+/** The last times set, or loaded with a state: numbers[2] step and increment, times[3] step time,
+ * total time and time increment. */
+int32_t usub_get_time(const usub_driver *driver, int32_t *numbers, double *times);
 /** Sets the frictional dissipation that the routine is told (whole model). */
 int32_t usub_set_friction_work(usub_driver *driver, double work);
 
@@ -211,13 +214,25 @@ int32_t usub_stick_force_penalty_single(int32_t points, int32_t dimension,
 /** Receives what routines say: level 1 information, -1 warning, -2 error, -3 fatal (STDB_ABQERR,
  * XPLB_ABQERR), `text` is NUL-terminated and lives for the call. */
 typedef void (*usub_message_fn)(void *context, int32_t level, const char *text);
-/** Sets the receiver for this process; NULL drops messages (the default). */
+/** Sets the receiver for this process; NULL drops messages (the default). It is called by the
+ * thread that runs the routine, so by several at once if the scene has threads. */
 void usub_set_message_handler(usub_message_fn handler, void *context);
 /** Turns arithmetic and memory faults inside routines into USUB_ROUTINE_CRASHED (1) or leaves them
  * to the process (0, the default). Earlier handlers get every other fault. */
 int32_t usub_catch_faults(int32_t on);
+/** Points the calls of exit, abort, STOP and undefined utility routines in a library that was built
+ * without usersub to this one, so that they leave to the driver. `library` is a handle of dlopen
+ * (RTLD_LAZY). usub_routine_open does this itself.
+ * @return number of calls redirected, 0 where the system is not known, or a negative status. */
+int32_t usub_redirect_stops(void *library);
+/** Lets libraries that are loaded from now on find the utility routines (XIT, GETPARTINFO, ...) even
+ * if they are bound when loaded; needed only when dlopen reports one of them as undefined. */
+int32_t usub_publish_utilities(void);
 /** What GETJOBNAME and GETOUTDIR answer (default "usersub" and "."). */
 int32_t usub_set_job(const char *job_name, const char *output_folder);
+/** Ends the analysis that routines know of: the allocatable arrays of all threads are deleted. No
+ * routine may be running. */
+void usub_end_job(void);
 /** Does nothing; the cost of a call. */
 int32_t usub_empty(usub_driver *driver);
 

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+# Task runner. `make build PYTHON=/path/to/python` works in another environment.
+PYTHON ?= python
+PYTEST_ARGS ?=
+C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/include/usersub/*.h)
+
+.PHONY: help build gen check-gen test lint format docs bench clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+
+build: ## compile the C core and install the package in editable form
+	$(PYTHON) -m pip install --quiet --no-build-isolation --no-deps -e .
+
+gen: ## write the generated files
+	$(PYTHON) -m usersub.emit
+
+check-gen: ## compare the generated files with the tables
+	$(PYTHON) -m usersub.emit --check
+
+test: ## run the tests (PYTEST_ARGS="-k name")
+	$(PYTHON) -m pytest $(PYTEST_ARGS)
+
+lint: ## ruff, clang-format, mypy
+	$(PYTHON) -m ruff check .
+	$(PYTHON) -m ruff format --check .
+	clang-format --dry-run -Werror $(C_SOURCES)
+	$(PYTHON) -m mypy
+
+format: ## format Python and C
+	$(PYTHON) -m ruff check --fix .
+	$(PYTHON) -m ruff format .
+	clang-format -i $(C_SOURCES)
+
+docs: ## build the documentation, warnings are errors
+	$(PYTHON) -m sphinx -W --keep-going -b html docs docs/_build/html
+
+bench: ## run the benchmarks and write their table
+	$(PYTHON) -m tests.benchmarks
+
+clean: ## remove what was built
+	rm -rf build dist docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+/** @file internal.h
+ * What the parts of the driver share. Nothing here is seen by a host.
+ *
+ * Path of a call: a host binds arrays to *slots* (one for each port of the driver); `plan.c` decides
+ * once, for every argument of the routine, where its memory comes from (`usub_source`); a call cuts
+ * the points into blocks, sets the argument pointers of a block (`usub_call`), calls the routine
+ * under a guard, checks what came back, and only at the end changes what is kept.
+ */
+#ifndef USERSUB_INTERNAL_H
+#define USERSUB_INTERNAL_H
+
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../runtime/guard.h"
+#include "../runtime/pool.h"
+#include "tables.h"
+#include "usersub/usersub.h"
+
+#define USUB_MAX_ARGS 42
+#define USUB_MAX_SLOTS 40
+#define USUB_TEXT_LENGTH 81
+
+typedef enum { USUB_KIND_OF_STANDARD, USUB_KIND_OF_EXPLICIT, USUB_KIND_OF_COEFFICIENT } usub_kind_of_driver;
+
+/** One argument, as in the table. */
+typedef struct usub_arg {
+  const char *name, *modern;
+  int32_t kind;
+  const char *shape;
+  int32_t intent;
+} usub_arg;
+
+/** One array between host and driver, as in the table. */
+typedef struct usub_port {
+  const char *name;
+  int32_t drivers, kind, role;
+  const char *shape, *unbound;
+} usub_port;
+
+/** One interface in one generation; rows come from the table. */
+typedef struct usub_interface {
+  const char *name;       /* "vfric_coef" */
+  const char *generation; /* "legacy" or "2022" */
+  int32_t standard;       /* 1 implicit, 0 explicit */
+  int32_t for_driver;     /* USUB_FOR_... bit of its ports */
+  const usub_arg *args;
+  int32_t count;
+} usub_interface;
+
+struct usub_routine {
+  const usub_interface *face;
+  int32_t generation_known;
+  int32_t single;
+  int32_t style;
+  usub_entry entry;
+  void *library; /* dlopen handle or NULL */
+  int32_t uses_known, block_safe, thread_safe;
+  unsigned char uses[USUB_MAX_ARGS];
+};
+
+/** Every setting of a scene; the fields come from the table. */
+typedef struct usub_settings {
+#define SETTING_INT(key, value, meaning) int32_t key;
+#define SETTING_REAL(key, value, meaning) double key;
+#define SETTING_TEXT(key, value, choices, meaning) char key[USUB_TEXT_LENGTH];
+#include "settings.inc"
+#undef SETTING_INT
+#undef SETTING_REAL
+#undef SETTING_TEXT
+} usub_settings;
+
+struct usub_scene {
+  usub_settings settings;
+  double *props;
+  int32_t prop_count;
+  char message[512];
+};
+
+/** Sizes in the symbols of the port table, plus the size of a real. */
+typedef struct usub_sizes {
+  int32_t N, D, F, S, P, A, B, M, X, Y, Z, T;
+  size_t real;
+} usub_sizes;
+
+/** One port of a driver with its memory. */
+typedef struct usub_slot {
+  const usub_port *port;
+  size_t count;     /* elements */
+  size_t per_point; /* elements of one contact point; 0 if the array has no point index */
+  size_t element;   /* bytes of one element */
+  void *data;       /* bound by the host, else `own` */
+  void *own;
+  int32_t bound;
+} usub_slot;
+
+/** Where the memory of an argument comes from. */
+typedef enum {
+  USUB_LEFT_OUT, /* nobody reads or writes it: a read-only page of zeros */
+  USUB_FIXED,    /* the same pointer in every block */
+  USUB_POINTS,   /* the number of contact points of the block */
+  USUB_SLICE,    /* host memory plus first point times stride */
+  USUB_SCRATCH   /* memory of the worker, filled or emptied by the driver */
+} usub_from;
+
+typedef struct usub_source {
+  usub_from from;
+  const char *what, *why; /* for people */
+  const void *data;       /* FIXED: memory of the driver, */
+  const usub_slot *slot;  /* or FIXED, SLICE: an array (the host may bind another any time) */
+  size_t per_point;       /* SLICE, SCRATCH: bytes a contact point */
+  size_t extra;           /* SCRATCH: bytes besides */
+  int32_t used;           /* 1, 0, -1 unknown */
+  int32_t bytes, bytes_full;
+} usub_source;
+
+/** Arguments and scratch of one worker. */
+typedef struct usub_call {
+  void *argv[USUB_MAX_ARGS];
+  int32_t n;    /* contact points of the block */
+  char *scratch; /* one allocation; the sources' shares, then `axes` */
+  void *axes;    /* local direction 1 of the points of a block */
+  double pnewdt; /* smallest of this worker */
+  /* the failure of this worker in its lowest block */
+  int32_t failed_block, failed_point, status;
+  char message[512];
+} usub_call;
+
+/** Times and numbers that arguments point at, in both precisions. */
+typedef struct usub_clock {
+  int32_t flags[3]; /* step, increment, type of contact */
+  double time[4];   /* step time, total time, increment, friction work */
+  float time_f[4];
+  int32_t iteration;
+} usub_clock;
+
+/** Integers that arguments point at. */
+typedef struct usub_counts {
+  int32_t zero, one, N, D, F, S, P, T, B, M, X, Y, facet_nodes, props, temperatures;
+} usub_counts;
+
+struct usub_driver {
+  usub_kind_of_driver kind;
+  const usub_interface *face;
+  usub_routine routine; /* a copy */
+  char title[16];       /* upper-case name of the interface, for messages */
+  usub_settings set;
+  usub_sizes size;
+  int32_t single, analytical, edges;
+  int32_t points;   /* present now */
+  int32_t block;    /* points a call */
+  int32_t threads;
+  int32_t prepared; /* the plan fits the set of bound arrays */
+  int32_t timed;    /* usub_set_time was called */
+  int32_t aimed;    /* the fixed argument pointers are set */
+  usub_slot slots[USUB_MAX_SLOTS];
+  int32_t slot_count;
+  usub_source sources[USUB_MAX_ARGS];
+  int32_t moving[USUB_MAX_ARGS], moving_count; /* arguments that are slices */
+  usub_call *calls; /* one a worker */
+  usub_pool *pool;
+  usub_clock clock;
+  usub_counts counts;
+  char names[3][USUB_NAME_LENGTH];
+  void *props;
+  int32_t prop_count;
+  void *ones;    /* reals: areas, shape functions of nodes */
+  int32_t *node_numbers; /* 1, 2, ...: global numbers where the host gives none */
+  void *nothing; /* read-only zeros for left-out arguments */
+  size_t nothing_size;
+  char missing[256]; /* what the plan lacks */
+  /* standard */
+  int32_t increment_open, iterated;
+  int32_t *last_lm;
+  unsigned char *last_closed, *closed_now;
+  double *last_dslip;
+  double *trial_state, *trial_elastic, *trial_equivalent;
+  double pnewdt;
+  /* explicit */
+  void *last_force; /* kept where the routine reads the previous force */
+  void *state_backup;
+  double dissipation;
+  int32_t scatters, needs_nodes;
+  /* failures */
+  atomic_int first_failed; /* lowest block that failed, INT32_MAX if none */
+  int32_t failed_point, failed_block;
+  char message[1024];
+};
+
+/* message.c */
+#define USUB_PRINTF(a, b) __attribute__((format(printf, a, b)))
+int32_t usub_fail(usub_driver *driver, int32_t status, const char *format, ...) USUB_PRINTF(3, 4);
+int32_t usub_error_set(usub_error *error, int32_t status, const char *format, ...)
+    USUB_PRINTF(3, 4);
+/** Records a failure of a block; the driver reports the one of the lowest block. */
+int32_t usub_block_fail(usub_driver *driver, usub_call *call, int32_t block, int32_t point,
+                        int32_t status, const char *format, ...) USUB_PRINTF(6, 7);
+/* interface.c */
+/** The interface called `name` in `generation` (NULL: the newest); NULL if there is none. */
+const usub_interface *usub_interface_find(const char *name, const char *generation);
+/** USUB_INTERFACE_... of an interface. */
+int32_t usub_interface_key(const usub_interface *face);
+
+/* slots.c */
+int32_t usub_slots_create(usub_driver *driver, usub_error *error);
+void usub_slots_free(usub_driver *driver);
+usub_slot *usub_slot_find(usub_driver *driver, const char *name);
+/** Memory of a slot, NULL if nothing is bound or owned. */
+void *usub_data(const usub_driver *driver, const char *name);
+/** Index of the first NaN or infinity in `n` reals, -1 if there is none. */
+ptrdiff_t usub_first_bad(const void *data, size_t n, int32_t single);
+
+/* plan.c */
+/** Whether the routine uses the argument: 1, 0, or -1 if nobody knows. */
+int32_t usub_used(const usub_driver *driver, int32_t position);
+/** The same number for all points of all blocks. */
+void usub_put_fixed(usub_driver *driver, int32_t position, const void *data);
+/** The number of contact points of the block. */
+void usub_put_points(usub_driver *driver, int32_t position);
+/** An array of the host: a slice if it has a point index, else as it is. If nothing is bound, the
+ * argument is `fallback` (FIXED; NULL: zeros). */
+void usub_put_array(usub_driver *driver, int32_t position, const char *array, const void *fallback);
+/** Notes that `array` is missing if the routine is known to read the argument made of it. */
+void usub_need_array(usub_driver *driver, int32_t position, const char *array);
+/** Memory of the driver, `bytes` a point from `data`. */
+void usub_put_memory(usub_driver *driver, int32_t position, const void *data, size_t bytes);
+/** Memory of the worker that the driver fills ("gathered", "computed") or empties ("output"). */
+void usub_put_scratch(usub_driver *driver, int32_t position, size_t per_point, size_t extra,
+                      const char *what, const char *why);
+/** Notes that the scene has no such thing: zeros are passed. */
+void usub_put_absent(usub_driver *driver, int32_t position, size_t per_point, const char *why);
+/** Whether the driver has to fill or empty the scratch of an argument. */
+int usub_is_live(const usub_driver *driver, int32_t position);
+/** Plan of the driver's kind, workers and scratch; refuses if needed arrays are not bound. */
+int32_t usub_prepare(usub_driver *driver);
+void usub_calls_free(usub_driver *driver);
+/** Sets the slices of a block of `n` points from `first`. */
+void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n);
+
+/* run.c */
+/** Calls the routine with the arguments of `call`; the caller holds the guard. */
+int32_t usub_call_routine(const usub_driver *driver, const usub_call *call);
+/** The same under a guard; the reason of a stop goes to the message of the call. */
+int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
+/** One block of points: fills, calls, checks, empties. */
+typedef int32_t (*usub_block_fn)(usub_driver *driver, usub_call *call, int32_t index);
+/** Runs all blocks over the workers and reports the failure of the lowest block. */
+int32_t usub_run_blocks(usub_driver *driver, usub_block_fn block);
+/** Memory that only standard drivers have. */
+int32_t usub_standard_create(usub_driver *driver);
+void usub_standard_free(usub_driver *driver);
+/** Plan and block of the driver's kind. */
+void usub_standard_plan(usub_driver *driver);
+int32_t usub_standard_block(usub_driver *driver, usub_call *call, int32_t index);
+void usub_explicit_plan(usub_driver *driver);
+int32_t usub_explicit_block(usub_driver *driver, usub_call *call, int32_t index);
+void usub_coefficient_plan(usub_driver *driver);
+int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t index);
+/** The arguments that FRIC_COEF and VFRIC_COEF share: counts, names, properties, flags, times. */
+void usub_put_coefficient_common(usub_driver *driver);
+
+#endif

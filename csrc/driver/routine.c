@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/* Routines: from a library or a function pointer to something that a driver takes. */
+#include <ctype.h>
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../runtime/redirect.h"
+#include "internal.h"
+
+/* Checks names and makes an empty routine; NULL with a reason in `error`. */
+static usub_routine *routine_new(const char *interface, const char *generation,
+                                 const char *precision, usub_error *error) {
+  if (error) error->message[0] = 0;
+  const usub_interface *face = interface ? usub_interface_find(interface, generation) : NULL;
+  if (!face) {
+    const int known = interface && usub_interface_find(interface, NULL);
+    usub_error_set(error, USUB_BAD_ARGUMENT,
+                   known ? "%s has no generation '%s'; FRIC_COEF has 'legacy' and '2022', the "
+                           "other interfaces 'legacy'"
+                         : "unknown interface '%s'%.0s; expected fric, fric_coef, vfric, vfriction "
+                           "or vfric_coef",
+                   interface ? interface : "(null)", generation ? generation : "(null)");
+    return NULL;
+  }
+  const int single = precision && strcmp(precision, "single") == 0;
+  if (!single && !(precision && strcmp(precision, "double") == 0)) {
+    usub_error_set(error, USUB_BAD_ARGUMENT, "precision '%s'; expected 'double' or 'single'",
+                   precision ? precision : "(null)");
+    return NULL;
+  }
+  if (single && face->standard) {
+    usub_error_set(error, USUB_NOT_SUPPORTED,
+                   "%s exists in double precision only; precision 'single' was asked for", interface);
+    return NULL;
+  }
+  usub_routine *routine = calloc(1, sizeof *routine);
+  if (!routine) {
+    usub_error_set(error, USUB_NO_MEMORY, "no memory for a routine");
+    return NULL;
+  }
+  routine->face = face;
+  routine->generation_known = generation && generation[0];
+  routine->single = single;
+  return routine;
+}
+
+/* Makes the utility routines (XIT, GETPARTINFO, ...) visible to libraries that name them without
+ * being linked against this one: published code is compiled so. */
+static void offer_utilities(void) {
+  Dl_info self;
+  if (dladdr((void *)(uintptr_t)&usub_abi_hash, &self) && self.dli_fname) {
+    void *handle = dlopen(self.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
+    if (handle) dlclose(handle); /* the promotion to global scope stays */
+  }
+}
+
+int32_t usub_routine_open(const char *library, const char *interface, const char *generation,
+                          const char *precision, usub_routine **routine, usub_error *error) {
+  if (!routine)
+    return usub_error_set(error, USUB_BAD_ARGUMENT, "routine: expected a place for the handle, got NULL");
+  *routine = NULL;
+  usub_routine *made = routine_new(interface, generation, precision, error);
+  if (!made) return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  offer_utilities();
+  void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+  if (!handle) {
+    const char *why = dlerror();
+    free(made);
+    return usub_error_set(error, USUB_LOAD_FAILED, "library '%s' cannot be loaded: %s",
+                          library ? library : "(this program)", why ? why : "no reason given");
+  }
+  char symbol[32];
+  size_t length = strlen(made->face->name);
+  memcpy(symbol, made->face->name, length);
+  memcpy(symbol + length, "_", 2);
+  void *address = dlsym(handle, symbol);
+  if (!address) {
+    dlclose(handle);
+    free(made);
+    return usub_error_set(error, USUB_LOAD_FAILED,
+                          "library '%s' has no symbol '%s', so no routine behind %s",
+                          library ? library : "(this program)", symbol, interface);
+  }
+  if (library) usub_redirect_stops(handle);
+  made->library = handle;
+  made->style = USUB_STYLE_FULL;
+  memcpy(&made->entry, &address, sizeof address); /* ISO C has no cast from object to function */
+  *routine = made;
+  return usub_error_set(error, USUB_OK, "%s", "");
+}
+
+int32_t usub_routine_create(const char *interface, const char *generation, const char *precision,
+                            int32_t style, usub_entry entry, usub_routine **routine,
+                            usub_error *error) {
+  if (!routine || !entry)
+    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: expected a pointer, got NULL",
+                          routine ? "entry" : "routine");
+  *routine = NULL;
+  if (style != USUB_STYLE_FULL && style != USUB_STYLE_BLOCK)
+    return usub_error_set(error, USUB_BAD_ARGUMENT,
+                          "style %d; expected USUB_STYLE_FULL (0) or USUB_STYLE_BLOCK (1)", style);
+  usub_routine *made = routine_new(interface, generation, precision, error);
+  if (!made) return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  made->style = style;
+  made->entry = entry;
+  *routine = made;
+  return usub_error_set(error, USUB_OK, "%s", "");
+}
+
+int32_t usub_routine_set_uses(usub_routine *routine, const unsigned char *uses, int32_t count) {
+  if (!routine || !uses || count != routine->face->count) return USUB_BAD_ARGUMENT;
+  for (int32_t i = 0; i < count; ++i)
+    if (uses[i] > 3) return USUB_BAD_ARGUMENT;
+  memcpy(routine->uses, uses, (size_t)count);
+  routine->uses_known = 1;
+  return USUB_OK;
+}
+
+int32_t usub_routine_set_flag(usub_routine *routine, const char *flag, int32_t value) {
+  if (!routine || !flag || (value != 0 && value != 1)) return USUB_BAD_ARGUMENT;
+  if (strcmp(flag, "block_safe") == 0)
+    routine->block_safe = value;
+  else if (strcmp(flag, "thread_safe") == 0)
+    routine->thread_safe = value;
+  else
+    return USUB_BAD_ARGUMENT;
+  return USUB_OK;
+}
+
+void usub_routine_free(usub_routine *routine) {
+  if (!routine) return;
+  if (routine->library) dlclose(routine->library);
+  free(routine);
+}

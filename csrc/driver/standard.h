@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* What FRIC and the penalty enforcement of FRIC_COEF share. */
+#ifndef USERSUB_STANDARD_H
+#define USERSUB_STANDARD_H
+
+#include "internal.h"
+
+/** PNEWDT on entry: a large number that no routine means. */
+#define USUB_PNEWDT_PRESET 1e36
+
+/** Memory of the arrays of a standard driver; NULL where there is none. */
+typedef struct usub_point_arrays {
+  int32_t *lm, *condition;
+  const int32_t *closed, *node;
+  double *tau, *ddtddg, *ddtddp, *ddtddt, *dslip, *sed, *sfd;
+  double *slip, *state, *committed_tau, *committed_sed, *committed_pressure;
+  const double *slip_increment, *pressure, *multiplier, *rotation;
+  const double *temperature[2], *field[2];
+  double *elastic_slip, *equivalent_slip, *coefficient;
+} usub_point_arrays;
+
+usub_point_arrays usub_point_arrays_of(const usub_driver *driver);
+
+/* penalty_driver.c: FRIC_COEF */
+void usub_penalty_plan(usub_driver *driver);
+int32_t usub_penalty_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                           int32_t index, int32_t p);
+void usub_penalty_open_point(usub_driver *driver, const usub_point_arrays *at, int32_t p);
+
+#endif

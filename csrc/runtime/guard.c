@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+#include "guard.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "thread.h"
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+_Thread_local usub_thread usub_this_thread;
+
+/* longjmp keeps rounding, flush-to-zero and trap settings as the routine left them. */
+static uint64_t control_get(void) {
+#if defined(__SSE__)
+  return _mm_getcsr();
+#elif defined(__aarch64__)
+  uint64_t control;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+  return control;
+#else
+  return 0;
+#endif
+}
+
+static void control_set(uint64_t control) {
+#if defined(__SSE__)
+  _mm_setcsr((unsigned int)control);
+#elif defined(__aarch64__)
+  __asm__ volatile("msr fpcr, %0" : : "r"(control));
+#else
+  (void)control;
+#endif
+}
+
+void usub_guard_push(usub_guard *guard) {
+  usub_thread *thread = &usub_this_thread;
+  guard->status = 0;
+  guard->single = 0;
+  guard->float_control = control_get();
+  guard->outer = thread->guard;
+  guard->reason[0] = '\0';
+  if (atomic_load_explicit(&usub_faults_caught, memory_order_relaxed) && !thread->prepared)
+    usub_faults_prepare();
+  thread->chaining = 0;
+  thread->guard = guard;
+}
+
+void usub_guard_pop(usub_guard *guard) {
+  usub_this_thread.guard = guard->outer;
+}
+
+int usub_guard_armed(void) {
+  return usub_this_thread.guard != NULL;
+}
+
+usub_guard *usub_guard_top(void) {
+  return usub_this_thread.guard;
+}
+
+_Noreturn void usub_guard_jump(usub_guard *guard) {
+  usub_mutex_release();
+  control_set(guard->float_control);
+  /* Whoever lands has left this guard: leaving again from there goes one further out. */
+  usub_this_thread.guard = guard->outer;
+  siglongjmp(guard->env, 1);
+}
+
+_Noreturn void usub_guard_leave(int32_t status, const char *format, ...) {
+  usub_guard *guard = usub_this_thread.guard;
+  char reason[sizeof guard->reason];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(reason, sizeof reason, format, args);
+  va_end(args);
+  if (guard != NULL) {
+    guard->status = status;
+    memcpy(guard->reason, reason, sizeof reason);
+    usub_guard_jump(guard);
+  }
+  /* User code that no driver called: the program ends, as the routine asked. */
+  if (!usub_say(-3, "%s", reason))
+    fprintf(stderr, "%s\n", reason);
+  exit(EXIT_FAILURE);
+}

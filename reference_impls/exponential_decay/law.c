@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* Exponential decay from a static to a kinetic coefficient; props: static, kinetic, decay. */
+#define USUB_LAW "exponential_decay"
+#define USUB_LAW_PROPS 3
+#define USUB_LAW_READS_RATE
+#include <usersub/coefficient_law.h>
+
+USUB_LAW_FUNCTION {
+  const usub_real transition = (props[0] - props[1]) * usub_exp_decay(props[2] * rate);
+  if (derivative) derivative[0] = -props[2] * transition;
+  return props[1] + transition;
+}

@@ -1,0 +1,35 @@
+! SPDX-License-Identifier: MIT
+! Exponential decay between coefficients that are linear in temperature and pressure;
+! props: Cs, Ds, Ck, Dk, decay.
+#define USUB_LAW 'temperature_pressure_decay'
+#define USUB_LAW_READS_RATE
+#define USUB_LAW_READS_PRESSURE
+#define USUB_LAW_READS_TEMPERATURE
+#include "usersub/laws.fi"
+
+module usub_law_function
+  use usub_law_tools
+  implicit none
+contains
+  pure integer function needed_props(props)
+    real(wp), intent(in) :: props(:)
+    needed_props = 5
+  end function
+
+  function law(rate, pressure, temperature, props, derivative) result(mu)
+    real(wp), intent(in) :: rate, pressure, temperature, props(:)
+    real(wp), intent(inout), optional :: derivative(3)
+    real(wp) :: mu, at_rest, sliding, share
+    at_rest = props(1)*temperature + props(2)*pressure
+    sliding = props(3)*temperature + props(4)*pressure
+    share = exp_decay(props(5)*rate)
+    mu = sliding + (at_rest - sliding)*share
+    if (present(derivative)) then
+      derivative(1) = -props(5)*(at_rest - sliding)*share
+      derivative(2) = props(4) + (props(2) - props(4))*share
+      derivative(3) = props(3) + (props(1) - props(3))*share
+    end if
+  end function
+end module
+
+#include "usersub/coefficient_law.fi"

@@ -1,0 +1,384 @@
+# SPDX-License-Identifier: MIT
+"""What the three Python drivers share: creation, binding, views, errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import numpy as np
+
+from usersub.core import ffi, lib, text
+from usersub.driver import status
+from usersub.driver.arrays import Layout
+from usersub.driver.plan import Plan, PlanRow
+from usersub.driver.scene import Scene
+from usersub.driver.state import State
+from usersub.errors import AbiError, Error, SceneError
+from usersub.routine.routine import Routine
+
+_RAISED = status.VALUES["ROUTINE_RAISED"]
+
+
+class Driver:
+    """A routine in a scene. Made once; afterwards a call is one pointer.
+
+    One thread may use a driver at a time; different drivers are independent, and a call frees the
+    GIL.
+
+    Args:
+        routine: what a decorator, `usersub.load` or `usersub.from_pointer` gave.
+        scene: what the host's model has.
+        reuse: results are views of the driver's own memory, overwritten by the next call, instead
+            of fresh copies.
+
+    Raises:
+        SceneError: routine and scene do not fit.
+    """
+
+    kind: ClassVar[str]
+    interfaces: ClassVar[tuple[str, ...]]
+
+    def __init__(self, routine: Routine, scene: Scene, *, reuse: bool = False) -> None:
+        _check_types(type(self), routine, scene)
+        _prepare_process()
+        face = routine.interface
+        self.routine, self.scene, self.reuse = routine, scene, reuse
+        self._title = f"{face.name.upper()} '{routine.name}'"
+        self.layout = Layout(self._title, face.name, self.kind, scene)
+        self._entry = routine.entry(str(scene["precision"]))
+        self._c_routine = _make_routine(routine, self._entry, str(scene["precision"]))
+        self._handle = _make_driver(self.kind, self._c_routine, scene)
+        self._bound: dict[str, np.ndarray] = {}
+        self._buffers: dict[str, Any] = {}
+        self._views: dict[str, np.ndarray | None] = {}
+        self._points = int(scene["points"])
+        self._clock = Clock()
+        self.state = State(self)
+
+    # Arrays.
+
+    def bind(self, **arrays: np.ndarray | None) -> None:
+        """Binds numpy arrays by name, without a copy; None unbinds.
+
+        Shapes are those of the manual ("Arrays of the drivers"), Fortran-ordered. An output that is
+        bound receives the results.
+
+        Raises:
+            SceneError: an array does not fit; nothing has changed.
+        """
+        fresh = {n: a for n, a in arrays.items() if a is None or self._bound.get(n) is not a}
+        if not fresh:
+            return
+        for name, array in fresh.items():
+            if array is None:
+                self.layout.port(name)
+            else:
+                self.layout.check(name, array)
+        after = {n: a for n, a in {**self._bound, **fresh}.items() if a is not None}
+        self.layout.check_overlaps(after)
+        for name, array in fresh.items():
+            self._bind_one(name, array)
+
+    def _bind_one(self, name: str, array: np.ndarray | None) -> None:
+        if array is None:
+            buffer, count = ffi.NULL, 0
+        else:
+            # The transpose of a Fortran-ordered array is the C-ordered one that cffi accepts.
+            buffer, count = ffi.from_buffer(array.T), array.size
+        self._check(lib.usub_bind(self._handle, name.encode(), buffer, count))
+        self._views.clear()
+        if array is None:
+            self._bound.pop(name, None)
+            self._buffers.pop(name, None)
+        else:
+            self._bound[name], self._buffers[name] = array, buffer
+
+    def array(self, name: str) -> np.ndarray:
+        """The array called `name`: the host's if bound, else a view of the driver's own memory.
+
+        Raises:
+            SceneError: no such array, or nothing is bound and the driver has no memory of its own.
+        """
+        self.layout.port(name)
+        view = self._view(name)
+        if view is None:
+            raise SceneError(f"array '{name}' is not bound and the driver keeps none in this scene")
+        return view
+
+    def _view(self, name: str) -> np.ndarray | None:
+        if name in self._bound:
+            return self._bound[name]
+        if name not in self._views:
+            self._views[name] = self._own_memory(name)
+        return self._views[name]
+
+    def _own_memory(self, name: str) -> np.ndarray | None:
+        data, count = ffi.new("void **"), ffi.new("size_t *")
+        self._check(lib.usub_array(self._handle, name.encode(), data, count))
+        shape, dtype = self.layout.shapes[name], self.layout.dtypes[name]
+        if count[0] == 0:
+            return np.zeros(shape, dtype, order="F") if 0 in shape else None
+        return np.asarray(_Memory(self._handle, int(ffi.cast("uintptr_t", data[0])), shape, dtype))
+
+    def _result(self, name: str) -> np.ndarray | None:
+        """What a call returns for the output `name`: a copy, or a view if `reuse`."""
+        view = self._view(name)
+        return view if view is None or self.reuse else view.copy(order="F")
+
+    @property
+    def points(self) -> int:
+        """Contact points that are present now; bound arrays keep their full size."""
+        return self._points
+
+    @points.setter
+    def points(self, count: int) -> None:
+        self._check(lib.usub_set_points(self._handle, _int32("points", count)))
+        self._points = count
+
+    # Plan and state.
+
+    @property
+    def plan(self) -> Plan:
+        """What is passed to the routine and what is left out, with the arrays bound now."""
+        rows = []
+        row = ffi.new("usub_plan_row *")
+        for index in range(lib.usub_plan_count(self._handle)):
+            self._check(lib.usub_plan_get(self._handle, index, row))
+            used = None if row.read < 0 else bool(row.read)
+            rows.append(
+                PlanRow(
+                    text(row.argument), text(row.what), text(row.why), used, row.bytes,
+                    row.bytes_full,
+                )
+            )
+        block, threads = lib.usub_plan_block(self._handle), lib.usub_plan_threads(self._handle)
+        title = (
+            f"{self._title} ({self.routine.language}), {self.kind} driver, "
+            f"{self.scene['precision']} precision, {self.scene['points']} contact points"
+        )
+        return Plan(title, tuple(rows), block, threads)
+
+    def save_state(self) -> bytes:
+        """The committed state as bytes (`state.save`)."""
+        size = lib.usub_state_size(self._handle)
+        buffer = bytearray(size)
+        self._check(lib.usub_state_save(self._handle, ffi.from_buffer(buffer), size))
+        return bytes(buffer)
+
+    def load_state(self, data: bytes) -> None:
+        """Takes over saved state (`state.load`)."""
+        self._check(lib.usub_state_load(self._handle, ffi.from_buffer(data), len(data)))
+
+    # Calls.
+
+    def prepare(self) -> Callable[[], int]:
+        """A function without arguments that repeats the call with what is bound and set now.
+
+        It is the fastest way to call: one C call with one pointer. It returns the status (0, or 1
+        for a cut-back) and raises as the full call does; results are in the bound arrays and in
+        `array(name)`.
+        """
+        call, handle, check = self._c_call, self._handle, self._check
+        after = self.routine.after_call
+        if after is not None:
+            return lambda: self._finish(call(handle))
+
+        def prepared() -> int:
+            if found := call(handle):
+                return check(found)
+            return 0
+
+        return prepared
+
+    _c_call: ClassVar[Callable[[Any], int]]
+
+    def _finish(self, found: int) -> int:
+        """Checks the status of a call of the routine, after its messages were handed on."""
+        if self.routine.after_call is not None:
+            self.routine.after_call()
+        return self._check(found)
+
+    def _set_time(self, step: int, increment: int | None, times: tuple) -> None:
+        """Sets the clock; times that are None follow from the last accepted increment."""
+        values = self._clock.at(step, increment, *times)
+        self._check(lib.usub_set_time(self._handle, *values))
+        self._clock.pending = values
+
+    def _check(self, found: int) -> int:
+        """Returns a status that is no failure, raises the exception of one that is."""
+        if found >= 0:
+            return found
+        point = lib.usub_failed_point(self._handle)
+        raised = status.exception(found, text(lib.usub_message(self._handle)), point)
+        cause = self._cause() if found == _RAISED else None
+        if cause is not None and not isinstance(cause, Exception):
+            raise cause  # KeyboardInterrupt and its like are not the routine's
+        raise raised from cause
+
+    def _cause(self) -> BaseException | None:
+        """The exception that a Python routine raised, by calling its uncompiled twin."""
+        keep = self._entry.keep
+        if getattr(keep, "exception", None) is None and self.routine.replay is not None:
+            entry = self.routine.replay(str(self.scene["precision"]))
+            keep = entry.keep
+            keep.exception = None  # type: ignore[attr-defined]
+            lib.usub_replay(self._handle, ffi.cast("usub_entry", entry.address))
+        cause = getattr(keep, "exception", None)
+        if cause is not None:
+            keep.exception = None  # type: ignore[union-attr]
+        return cause
+
+
+class Clock:
+    """Step, increment and times; what the host does not give follows from what it gave last."""
+
+    def __init__(self) -> None:
+        self.step, self.increment = 1, 0
+        self.step_time = self.total_time = 0.0
+        self.pending: tuple[int, int, float, float, float] | None = None
+
+    def at(
+        self,
+        step: int,
+        increment: int | None,
+        time_increment: float,
+        step_time: float | None,
+        total_time: float | None,
+    ) -> tuple[int, int, float, float, float]:
+        """Arguments of `usub_set_time` for an increment that ends at the given times."""
+        same = step == self.step
+        duration = float(time_increment)
+        if increment is None:
+            increment = self.increment + 1 if same else 1
+        if step_time is None:
+            step_time = (self.step_time if same else 0.0) + duration
+        if total_time is None:
+            total_time = self.total_time + duration
+        return (
+            _int32("step", step), _int32("increment", increment), float(step_time),
+            float(total_time), duration,
+        )
+
+    def accept(self) -> None:
+        """Makes the pending increment the last accepted one."""
+        if self.pending is not None:
+            self.step, self.increment, self.step_time, self.total_time, _ = self.pending
+            self.pending = None
+
+
+class _Memory:
+    """Memory of the C core for numpy; keeps the driver alive as long as a view lives."""
+
+    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], dtype: np.dtype) -> None:
+        strides, step = [], dtype.itemsize
+        for extent in shape:
+            strides.append(step)
+            step *= extent
+        self.owner = owner
+        self.__array_interface__ = {
+            "version": 3,
+            "data": (address, False),
+            "shape": shape,
+            "strides": tuple(strides),
+            "typestr": dtype.str,
+        }
+
+
+def _int32(name: str, value: int) -> int:
+    if isinstance(value, int | np.integer) and -(2**31) <= value < 2**31:
+        return int(value)
+    raise SceneError(f"{name} = {value!r}; expected an integer of 4 bytes")
+
+
+def _check_types(driver: type[Driver], routine: Routine, scene: Scene) -> None:
+    if not isinstance(routine, Routine):
+        raise SceneError(
+            f"{driver.__name__} got {type(routine).__name__} as its routine; expected what a "
+            "decorator, usersub.load(...)['name'] or usersub.from_pointer gives"
+        )
+    if not isinstance(scene, Scene):
+        raise SceneError(
+            f"{driver.__name__} got {type(scene).__name__} as its scene; expected usersub.Scene"
+        )
+    face = routine.interface
+    if face.name not in driver.interfaces:
+        raise SceneError(
+            f"{driver.__name__} has no interface {face.name.upper()}; "
+            f"it has {', '.join(name.upper() for name in driver.interfaces)}"
+        )
+    if scene["precision"] not in face.precisions:
+        raise SceneError(
+            f"scene setting 'precision' = '{scene['precision']}'; "
+            f"{face.name.upper()} exists in {' and '.join(face.precisions)} precision only"
+        )
+
+
+def _prepare_process() -> None:
+    """Faults in routines become exceptions, and messages of routines reach their receiver."""
+    from usersub.routine import messages
+
+    lib.usub_catch_faults(1)
+    messages.connect()
+
+
+def _make_routine(routine: Routine, entry: Any, precision: str) -> Any:
+    """The C core's handle of `routine`, freed with the last reference."""
+    face = routine.interface
+    made, error = ffi.new("usub_routine **"), ffi.new("usub_error *")
+    found = lib.usub_routine_create(
+        face.name.encode(), face.generation.encode(), precision.encode(), entry.style,
+        ffi.cast("usub_entry", entry.address), made, error,
+    )
+    if found < 0:
+        raise _made(found, error)
+    handle = ffi.gc(made[0], lib.usub_routine_free)
+    if routine.uses is not None:
+        uses = bytes(routine.uses)
+        if lib.usub_routine_set_uses(handle, uses, len(uses)) < 0:
+            raise AbiError(
+                f"{face.name.upper()} '{routine.name}' says what it uses of {len(uses)} arguments; "
+                f"expected {len(face.args)}"
+            )
+    for flag in ("block_safe", "thread_safe"):
+        lib.usub_routine_set_flag(handle, flag.encode(), int(getattr(routine, flag)))
+    return handle
+
+
+def _make_driver(kind: str, routine: Any, scene: Scene) -> Any:
+    """The C core's driver, freed with the last reference; it keeps the routine's handle alive."""
+    c_scene = _make_scene(scene)
+    made, error = ffi.new("usub_driver **"), ffi.new("usub_error *")
+    found = lib.usub_driver_create(kind.encode(), routine, c_scene, made, error)
+    if found < 0:
+        raise _made(found, error)
+
+    def free(handle: Any, routine: Any = routine) -> None:
+        lib.usub_driver_free(handle)
+
+    return ffi.gc(made[0], free)
+
+
+def _make_scene(scene: Scene) -> Any:
+    made = ffi.new("usub_scene **")
+    if lib.usub_scene_create(made) < 0:
+        raise Error("no memory for a scene")
+    handle = ffi.gc(made[0], lib.usub_scene_free)
+    for key, value in scene.items():
+        name = key.encode()
+        if isinstance(value, str):
+            found = lib.usub_scene_set_text(handle, name, value.encode())
+        elif isinstance(value, float):
+            found = lib.usub_scene_set_real(handle, name, value)
+        else:
+            found = lib.usub_scene_set_int(handle, name, value)
+        if found < 0:
+            raise status.exception(found, text(lib.usub_scene_message(handle)))
+    if lib.usub_scene_set_props(handle, list(scene.props), len(scene.props)) < 0:
+        raise SceneError(text(lib.usub_scene_message(handle)))
+    return handle
+
+
+def _made(found: int, error: Any) -> Error:
+    """The exception of a failed creation."""
+    return status.exception(found, text(error.message))

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""The explicit driver: VFRIC, VFRICTION and VFRIC_COEF, one call an increment."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from usersub.core import lib
+from usersub.driver.base import Driver
+
+
+class ExplicitResponse(NamedTuple):
+    """What one increment gives.
+
+    Attributes:
+        force: friction force on the secondary side of each point, global components, shape (D, N).
+        coefficient: friction coefficient, shape (N,) (VFRIC_COEF), else None.
+        dissipation: frictional dissipation so far (scene setting `dissipation`), else 0.
+    """
+
+    force: np.ndarray
+    coefficient: np.ndarray | None
+    dissipation: float
+
+
+class ExplicitDriver(Driver):
+    """VFRIC, VFRICTION or VFRIC_COEF: local axes, rotation, routine, forces on both surfaces."""
+
+    kind = "explicit"
+    interfaces = ("vfric", "vfriction", "vfric_coef")
+    _c_call = lib.usub_step
+
+    def step(
+        self,
+        time_increment: float,
+        *,
+        step_time: float | None = None,
+        total_time: float | None = None,
+        step: int = 1,
+        increment: int | None = None,
+        friction_work: float | None = None,
+        **arrays: np.ndarray | None,
+    ) -> ExplicitResponse:
+        """One increment, after binding `arrays`; times are those at its end.
+
+        Args:
+            friction_work: frictional dissipation of the whole model that the routine is told.
+
+        Raises:
+            SceneError: an array is missing or holds a value that is refused.
+            RoutineError: the routine failed. The driver's state is as before.
+        """
+        if arrays:
+            self.bind(**arrays)
+        self._set_time(step, increment, (time_increment, step_time, total_time))
+        if friction_work is not None:
+            self._check(lib.usub_set_friction_work(self._handle, float(friction_work)))
+        self._finish(lib.usub_step(self._handle))
+        self._clock.accept()
+        coefficient = self._result("coefficient") if "coefficient" in self.layout.ports else None
+        dissipation = lib.usub_dissipation(self._handle)
+        return ExplicitResponse(self._result("force"), coefficient, dissipation)  # type: ignore[arg-type]

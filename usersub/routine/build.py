@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: MIT
+"""From objects to a library in the cache, and what is known of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from usersub import abi
+from usersub.errors import CompileError, LoadError
+from usersub.routine import cache, compilers, debuginfo, objects
+from usersub.routine.support import Support
+
+_RECORD = 1
+_UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
+
+
+@dataclass(frozen=True)
+class Build:
+    """A compiled source, or a prebuilt library, in one precision.
+
+    Attributes:
+        library: the shared object.
+        source: the user's file.
+        language: "fortran", "c", "c++" or "library".
+        precision: "double" or "single".
+        compiler: its own words; "" for a prebuilt library.
+        flags: compiler flags, without folders.
+        functions: external functions that the source defines.
+        signatures: argument lists by symbol, where there is debug information.
+        unused: positions of arguments that are not used, by symbol; no entry: not known.
+        shared: variables that outlive a call.
+        writes_units: it uses Fortran units.
+        absent: functions that other entries of the file call and that do not exist here.
+        guarded: symbols of block style that turn C++ exceptions into a status, by interface.
+    """
+
+    library: Path
+    source: Path
+    language: str
+    precision: str
+    compiler: str
+    flags: tuple[str, ...]
+    functions: tuple[str, ...]
+    signatures: dict[str, debuginfo.Signature]
+    unused: dict[str, tuple[int, ...]]
+    shared: tuple[str, ...]
+    writes_units: bool
+    absent: tuple[str, ...] = ()
+    guarded: dict[str, str] | None = None
+
+    @property
+    def interfaces(self) -> tuple[str, ...]:
+        """Names of the interfaces that the source defines, in the order of the tables."""
+        return tuple(name for name in abi.NAMES if name + "_" in self.functions)
+
+
+def interface_symbols() -> set[str]:
+    """External names of the five interfaces."""
+    return {name + "_" for name in abi.NAMES}
+
+
+def recall(library: Path, source: Path) -> Build | None:
+    """The build of an earlier time, or None."""
+    record = library.with_suffix(".json")
+    try:
+        stored = json.loads(record.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    if stored.pop("record", None) != _RECORD or not library.is_file():
+        return None
+    signatures = {
+        symbol: debuginfo.Signature(
+            s["symbol"],
+            s["file"],
+            s["line"],
+            tuple(debuginfo.Parameter(**p) for p in s["parameters"]),
+        )
+        for symbol, s in stored.pop("signatures").items()
+    }
+    unused = {symbol: tuple(positions) for symbol, positions in stored.pop("unused").items()}
+    guarded = stored.pop("guarded")
+    lists = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
+    return Build(
+        library=library, source=source, signatures=signatures, unused=unused, guarded=guarded, **lists
+    )
+
+
+def remember(build: Build) -> None:
+    """Writes what is known of a build beside its library."""
+    stored = asdict(build)
+    del stored["library"], stored["source"]
+    stored["record"] = _RECORD
+    cache.put_text(json.dumps(stored), build.library.with_suffix(".json"))
+
+
+def link(
+    compiler: compilers.Compiler,
+    source: Path,
+    parts: list[Path],
+    support: Support,
+    target: Path,
+) -> tuple[str, ...]:
+    """Links `parts` (the object of the source first) into `target`.
+
+    Functions that do not exist here are an error if one of the interfaces can come to call them;
+    other entries of the file (a UEL, a VUMAT) get a function that says so and ends the call.
+
+    Returns:
+        the names of such functions.
+
+    Raises:
+        LoadError: symbols that an interface needs are nowhere. CompileError: the linker's words.
+    """
+    made = parts[0].with_name("linked.so")
+    command = [*compiler.command, "-o", str(made), *map(str, parts), *support.link_flags]
+    outcome = compilers.run(command, parts[0].parent)
+    absent: tuple[str, ...] = ()
+    if outcome.code:
+        absent = tuple(sorted(set(_UNDEFINED.findall(outcome.text))))
+        if not absent:
+            raise compilers.refusal(compiler, source, outcome)
+        _refuse_if_reached(source, parts[0], absent)
+        stub = _stand_ins(compiler, parts[0].parent, absent)
+        command.insert(command.index("-o"), str(stub))
+        outcome = compilers.run(command, parts[0].parent)
+        if outcome.code:
+            raise compilers.refusal(compiler, source, outcome)
+    cache.put(made, target)
+    return absent
+
+
+def _refuse_if_reached(source: Path, part: Path, absent: tuple[str, ...]) -> None:
+    interfaces = interface_symbols()
+    reached = objects.reached(part, interfaces) if objects.is_elf(part) else set(absent)
+    needed = sorted(reached.intersection(absent))
+    other = sorted(set(absent) - set(needed))
+    plain = [name for name in other if not name.endswith("_")]
+    if needed or plain:
+        names = ", ".join(_shown(name) for name in needed or plain)
+        raise LoadError(
+            f"{source.name} calls {names}, which neither the file nor usersub defines"
+        )
+
+
+def _shown(symbol: str) -> str:
+    return symbol.removesuffix("_").upper() if symbol.endswith("_") else symbol
+
+
+def _stand_ins(compiler: compilers.Compiler, folder: Path, absent: tuple[str, ...]) -> Path:
+    """An object with functions that say that they do not exist here, and end the call."""
+    lines = [
+        "extern void stdb_abqerr_(int *, char *, int *, double *, char *, long, long);",
+        "extern void xit_(void);",
+        "static void usub_absent(char *text, long length) {",
+        '  int level = -2, none = 0; double zero = 0; char blank[9] = "        ";',
+        "  stdb_abqerr_(&level, text, &none, &zero, blank, length, 8);",
+        "  xit_();",
+        "}",
+    ]
+    for symbol in absent:
+        text = f"{_shown(symbol)} was called, which usersub does not provide"
+        lines.append(f'void {symbol}(void) {{ usub_absent("{text}", {len(text)}); }}')
+    source = folder / "usub_absent.c"
+    source.write_text("\n".join(lines) + "\n", encoding="ascii")
+    made = source.with_suffix(".o")
+    command = [*compiler.command, "-x", "c", "-c", "-fPIC", source.name, "-o", made.name]
+    outcome = compilers.run(command, folder)
+    if outcome.code:
+        names = ", ".join(_shown(name) for name in absent)
+        raise CompileError(f"no stand-in for {names} could be compiled: {outcome.text.strip()}")
+    return made

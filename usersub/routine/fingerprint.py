@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""A hash of all that the machine code of a Python function depends on.
+
+numba's own cache looks at the source file of a function, but not at the functions and constants
+of other files that it uses. Here the function's code is followed into every global and closure
+value; where one of them cannot be told by value, the function is not cached.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
+
+#: Modules whose contents are fixed by their version.
+_FIXED_MODULES = ("math", "cmath", "numpy", "numba", "operator")
+
+_PLAIN = (type(None), bool, int, float, complex, str, bytes, type(Ellipsis))
+
+
+class _Unknown(Exception):  # noqa: N818 - never leaves this module
+    """A value that cannot be told by value."""
+
+
+def fingerprint(law: Callable) -> str | None:
+    """Hash of a function or numba dispatcher with all it refers to; None if it cannot be told."""
+    digest = hashlib.sha256()
+    try:
+        _value(law, digest.update, set())
+    except _Unknown:
+        return None
+    return digest.hexdigest()
+
+
+def _value(value: object, add: Callable, seen: set[int]) -> None:
+    """Adds one value; a function that was met before is only named, which ends recursion."""
+    kind = type(value)
+    if kind in _PLAIN:
+        add(f"{kind.__name__} {value!r};".encode())
+    elif kind in (tuple, frozenset):
+        items = value if kind is tuple else sorted(value, key=repr)  # type: ignore[call-overload]
+        add(f"{kind.__name__} {len(items)};".encode())  # type: ignore[arg-type]
+        for item in items:  # type: ignore[attr-defined]
+            _value(item, add, seen)
+    elif isinstance(value, CodeType):
+        _code(value, add, seen)
+    elif isinstance(value, FunctionType):
+        _function(value, add, seen)
+    elif hasattr(value, "py_func") and hasattr(value, "targetoptions"):
+        options = {k: v for k, v in value.targetoptions.items() if isinstance(v, _PLAIN)}
+        if len(options) != len(value.targetoptions):
+            raise _Unknown
+        add(f"compiled {sorted(options.items())!r};".encode())
+        _value(value.py_func, add, seen)
+    else:
+        _library_value(value, add)
+
+
+def _library_value(value: object, add: Callable) -> None:
+    """Adds a value of numpy, numba or a fixed module."""
+    if isinstance(value, ModuleType):
+        _fixed(value.__name__)
+        add(f"module {value.__name__};".encode())
+    elif isinstance(value, BuiltinFunctionType | type) or type(value).__name__ == "ufunc":
+        home = getattr(value, "__module__", None) or "numpy"
+        if home != "builtins":
+            _fixed(home)
+        add(f"library {home}.{getattr(value, '__qualname__', None) or value.__name__};".encode())
+    elif type(value).__module__.startswith("numba.core.types"):
+        add(f"type {value!r};".encode())
+    elif type(value).__module__ == "numpy" and hasattr(value, "tobytes"):
+        if value.dtype.hasobject:
+            raise _Unknown
+        order = "F" if getattr(value.flags, "fnc", False) else "C"
+        add(f"array {value.dtype.str} {value.shape} {order};".encode())
+        add(value.tobytes(order))
+    else:
+        raise _Unknown
+
+
+def _fixed(module: str) -> None:
+    if module.split(".")[0].lstrip("_") not in _FIXED_MODULES:
+        raise _Unknown
+
+
+def _function(function: FunctionType, add: Callable, seen: set[int]) -> None:
+    home = function.__module__ or ""
+    if home.split(".")[0] in _FIXED_MODULES:
+        add(f"library {home}.{function.__qualname__};".encode())
+        return
+    if id(function) in seen:
+        add(f"again {function.__qualname__};".encode())
+        return
+    seen.add(id(function))
+    _code(function.__code__, add, seen)
+    _value(function.__defaults__ or (), add, seen)
+    for cell in function.__closure__ or ():
+        _value(cell.cell_contents, add, seen)
+    for name in sorted(_names(function.__code__)):
+        if name in function.__globals__:
+            add(f"global {name};".encode())
+            _value(function.__globals__[name], add, seen)
+
+
+def _names(code: CodeType) -> set[str]:
+    """Global names of the code and of the functions inside it (and attributes, which are rare)."""
+    found = set(code.co_names)
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            found |= _names(constant)
+    return found
+
+
+def _code(code: CodeType, add: Callable, seen: set[int]) -> None:
+    add(f"code {code.co_name} {code.co_argcount} {code.co_flags};".encode())
+    add(code.co_code)
+    for names in (code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars):
+        add(f"{names!r};".encode())
+    # Exceptions raised in the code do not leave the adapter, so line numbers do not matter.
+    add(getattr(code, "co_exceptiontable", b""))
+    for constant in code.co_consts:
+        _value(constant, add, seen)

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""What an ELF object or shared library says about itself: symbols, shared data, who needs what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from usersub.errors import LoadError
+
+#: Routines of the Fortran run-time library that write to or open units.
+_UNIT_CALLS = ("_gfortran_st_write", "_gfortran_st_read", "_gfortran_st_open")
+
+# Data that every library has, or that C++ headers add: no state of the routine.
+_HARMLESS = re.compile(
+    r"^(DW\.ref\..*|_ZStL8__ioinit|_ZT[VISC].*|_ZGVZNSt.*|completed\.\d+|__dso_handle|__TMC_END__"
+    r"|_DYNAMIC|_GLOBAL_OFFSET_TABLE_|__bss_start|_edata|_end|__frame_dummy_init_array_entry"
+    r"|__do_global_dtors_aux_fini_array_entry|options\.\d+)$"
+)
+# Sections that the loader writes once and the code never.
+_FIXED = (".data.rel.ro", ".init_array", ".fini_array", ".dynamic", ".got", ".ctors", ".dtors",
+          ".jcr", ".tm_clone_table")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Object:
+    """Symbols of an object file or a library.
+
+    Attributes:
+        functions: external functions that it defines.
+        missing: symbols that it needs and does not define.
+        shared: variables that outlive a call (COMMON, SAVE, module, static), for people.
+        writes_units: it reads or writes Fortran units.
+    """
+
+    functions: tuple[str, ...]
+    missing: tuple[str, ...]
+    shared: tuple[str, ...]
+    writes_units: bool
+
+
+def is_elf(path: Path) -> bool:
+    """Whether the file is ELF (Linux, BSD); other systems' objects are loaded unread."""
+    with path.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
+
+
+def read(path: Path) -> Object:
+    """Reads the symbol tables of an ELF file.
+
+    Raises:
+        LoadError: it is not ELF, or damaged.
+    """
+    from elftools.common.exceptions import ELFError
+    from elftools.elf.elffile import ELFFile
+
+    try:
+        with path.open("rb") as file:
+            return _read(ELFFile(file))
+    except (ELFError, UnicodeDecodeError, KeyError, IndexError) as error:
+        raise LoadError(f"{path} is not an object or library that can be read: {error}") from error
+
+
+def _read(elf) -> Object:
+    full, dynamic = elf.get_section_by_name(".symtab"), elf.get_section_by_name(".dynsym")
+    functions, missing, shared = set(), set(), set()
+    # Linked libraries say what others see in .dynsym; objects only have .symtab.
+    for symbol in (dynamic or full).iter_symbols() if (dynamic or full) else ():
+        info, index = symbol["st_info"], symbol["st_shndx"]
+        if not symbol.name or info["bind"] == "STB_LOCAL":
+            continue
+        if index == "SHN_UNDEF":
+            if info["bind"] != "STB_WEAK":
+                missing.add(symbol.name)
+        elif info["type"] in ("STT_FUNC", "STT_GNU_IFUNC"):
+            functions.add(symbol.name)
+    if full is not None:
+        shared = {n for s in full.iter_symbols() if (n := _shared_name(elf, s))}
+    elif dynamic is not None:
+        shared = {n for s in dynamic.iter_symbols() if (n := _shared_name(elf, s))}
+        shared |= _stripped_data(elf)
+    return Object(
+        tuple(sorted(functions)),
+        tuple(sorted(missing)),
+        tuple(sorted(shared)),
+        any(name in missing for name in _UNIT_CALLS),
+    )
+
+
+def _shared_name(elf, symbol) -> str:
+    """Name for people of a variable that outlives a call, or ""."""
+    index, kind, size = symbol["st_shndx"], symbol["st_info"]["type"], symbol["st_size"]
+    if not symbol.name or size == 0 or _HARMLESS.match(symbol.name):
+        return ""
+    if index in ("SHN_UNDEF", "SHN_ABS") or kind not in ("STT_OBJECT", "STT_COMMON", "STT_NOTYPE"):
+        return ""
+    if index == "SHN_COMMON":
+        return _people(symbol.name, common=True)
+    section = elf.get_section(index)
+    writable = section["sh_flags"] & 0x1
+    if not writable or section.name.startswith(_FIXED) or kind == "STT_NOTYPE":
+        return ""
+    return _people(symbol.name, common=False)
+
+
+def _people(name: str, common: bool) -> str:
+    """`blk_` -> COMMON /BLK/, `__m_MOD_x` -> module variable M::X, `count.0` -> count."""
+    module = re.match(r"^__(\w+?)_MOD_(\w+)$", name)
+    if module:
+        return f"module variable {module[1].upper()}::{module[2].upper()}"
+    if name == "__BLNK__":
+        return "blank COMMON"
+    if common or name.endswith("_"):
+        return f"COMMON /{name.rstrip('_').upper()}/"
+    local = re.match(r"^(?:_ZZ.*?E)?(\w+?)\.\d+$", name)
+    return f"variable {local[1] if local else name}"
+
+
+def _stripped_data(elf) -> set[str]:
+    """A stripped library keeps no names; more data than the compiler's own start-up code has is
+    taken for state of the routine."""
+    for section in elf.iter_sections():
+        if section.name in (".data", ".bss") and section["sh_size"] > 8:
+            return {f"{section['sh_size']} bytes of {section.name} (the library has no names)"}
+    return set()
+
+
+def reached(path: Path, start: Iterable[str]) -> set[str]:
+    """Missing symbols that the functions `start` of an object can come to call.
+
+    Needs one section a function (`-ffunction-sections`); what shares a section counts together.
+    """
+    from elftools.elf.elffile import ELFFile
+
+    with path.open("rb") as file:
+        elf = ELFFile(file)
+        symbols = list(elf.get_section_by_name(".symtab").iter_symbols())
+        edges: dict[int, set[int]] = {}
+        for section in elf.iter_sections():
+            if section["sh_type"] in ("SHT_RELA", "SHT_REL"):
+                target = elf.get_section(section["sh_info"])
+                if target["sh_flags"] & 0x2 and not target.name.startswith(".eh_frame"):
+                    used = {r["r_info_sym"] for r in section.iter_relocations()}
+                    edges.setdefault(section["sh_info"], set()).update(used)
+        home = {s.name: s["st_shndx"] for s in symbols if isinstance(s["st_shndx"], int) and s.name}
+        todo = [home[name] for name in start if name in home]
+        seen, missing = set(todo), set()
+        while todo:
+            for number in edges.get(todo.pop(), ()):
+                symbol = symbols[number]
+                place = symbol["st_shndx"]
+                if place == "SHN_UNDEF":
+                    missing.add(symbol.name)
+                elif isinstance(place, int) and place not in seen:
+                    seen.add(place)
+                    todo.append(place)
+        return missing

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: MIT
+"""What a history gave: one table of numbers by increment and contact point, and its files."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from usersub.errors import SceneError
+
+#: Physical dimension of every result column.
+UNITS = {
+    "increment": "-", "time": "time", "slip": "length", "pressure": "stress", "tau": "stress",
+    "force": "force", "normal_force": "force", "coefficient": "-", "mobilised": "-",
+    "lm": "-", "dslip": "length", "sed": "energy/area", "sfd": "energy/area", "state": "any",
+    "dissipation": "energy", "stick_force": "force",
+}
+
+
+@dataclass
+class HistoryResult:
+    """Results by increment.
+
+    Attributes:
+        routine, interface, language, precision: what was run.
+        columns: name -> array `[increment]` (time), `[increment, point]` or
+            `[increment, point, component]`.
+        cut_backs: increments that were halved.
+        notes: sentences that the reader has to know.
+    """
+
+    routine: str
+    interface: str
+    language: str
+    precision: str
+    columns: dict[str, np.ndarray]
+    cut_backs: int = 0
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def increments(self) -> int:
+        """Number of increments."""
+        return len(self.columns["time"])
+
+    @property
+    def points(self) -> int:
+        """Number of contact points."""
+        return self.columns["tau"].shape[1]
+
+    def flat(self) -> dict[str, np.ndarray]:
+        """One column a component, each `[increment, point]`, under names such as `tau_1`."""
+        shape = (self.increments, self.points)
+        index = np.arange(1, self.increments + 1)[:, None]
+        out = {"increment": np.broadcast_to(index, shape)}
+        for name, array in self.columns.items():
+            if array.ndim == 1:
+                out[name] = np.broadcast_to(array[:, None], shape)
+            elif array.ndim == 2:
+                out[name] = array
+            elif array.shape[2] == 1 and name != "state":
+                out[name] = array[:, :, 0]
+            else:
+                out |= {f"{name}_{i + 1}": array[:, :, i] for i in range(array.shape[2])}
+        return out
+
+    def rows(self) -> Iterator[dict[str, Any]]:
+        """One dictionary for each increment and point (from 0)."""
+        flat = self.flat()
+        for i in range(self.increments):
+            for point in range(self.points):
+                yield {"point": point} | {k: v[i, point].item() for k, v in flat.items()}
+
+    def write_csv(self, path: Path) -> None:
+        """Writes one line for each increment and point; reals with all their digits."""
+        with _open(path, "w") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            for count, row in enumerate(self.rows()):
+                if count == 0:
+                    writer.writerow(row)
+                writer.writerow(row.values())
+
+    def write_npz(self, path: Path) -> None:
+        """Writes the columns as they are."""
+        with _open(path, "wb") as stream:
+            np.savez(stream, **self.columns)
+
+
+def write_columns(columns: dict[str, np.ndarray], path: Path) -> None:
+    """Writes equally long one-dimensional columns as CSV or NPZ, by the suffix of `path`."""
+    if path.suffix.lower() == ".npz":
+        with _open(path, "wb") as stream:
+            np.savez(stream, **columns)
+        return
+    with _open(path, "w") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+
+
+def _open(path: Path, mode: str):
+    try:
+        if "b" in mode:
+            return path.open(mode)
+        return path.open(mode, encoding="utf-8", newline="")
+    except OSError as error:
+        raise SceneError(f"{path}: cannot be written: {error.strerror}") from error

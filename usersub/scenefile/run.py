@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Runs a scene file and writes the files it asks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from usersub import errors
+from usersub.scenefile import explicit, results, standard
+from usersub.scenefile.geometry import Progress
+from usersub.scenefile.reader import SceneFile, read
+from usersub.scenefile.setup import history_of, routine_of
+
+
+@dataclass
+class Run:
+    """What a scene file gave.
+
+    Attributes:
+        scene_file: what was read.
+        history: the results of a history, or None.
+        problem: the results of a problem (one object a row), empty for a history.
+        plan: the plan of the driver as text, "" for a problem.
+        written: the files that were written.
+        ok: whether all is well; a problem may miss its tolerance.
+    """
+
+    scene_file: SceneFile
+    history: results.HistoryResult | None = None
+    problem: list[Any] = field(default_factory=list)
+    plan: str = ""
+    written: list[Path] = field(default_factory=list)
+    ok: bool = True
+
+
+def run_scene(path: str | Path, *, progress: Progress | None = None) -> Run:
+    """Runs the scene file `path`.
+
+    Args:
+        path: a scene file; the paths in it are relative to its folder.
+        progress: called with (rows done, rows in all).
+
+    Raises:
+        SceneError: the file says what cannot be; nothing has been written.
+        CompileError, LoadError, MissingTool, AbiError, RoutineError: as the routine's loader and
+            driver; nothing has been written.
+    """
+    scene_file = read(path)
+    if scene_file.output.figure is not None:
+        from usersub.scenefile import figure
+
+        figure.require()
+    tell = progress or (lambda done, total: None)
+    if scene_file.problem is not None:
+        return _run_problem(scene_file)
+    run = _run_history(scene_file, tell)
+    _write(run)
+    return run
+
+
+def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
+    import usersub
+
+    routine = routine_of(scene_file)
+    settings, history = history_of(scene_file, routine.interface)
+    try:
+        scene = usersub.Scene(props=scene_file.props or (), **settings)
+        driver = usersub.driver(routine, scene)
+    except errors.SceneError as error:
+        raise errors.SceneError(f"{scene_file.path}: {error}") from error
+    result = results.HistoryResult(
+        routine=routine.name,
+        interface=routine.interface.name,
+        language=routine.language,
+        precision=settings.get("precision", "double"),
+        columns={},
+    )
+    runner = standard if routine.interface.solver == "standard" else explicit
+    place = [0, len(history.time) - 1]
+
+    def counted(done: int, total: int) -> None:
+        place[0] = done
+        progress(done, total)
+
+    try:
+        runner.run(driver, settings, history, result, counted)
+    except errors.RoutineError as error:
+        begin, end = history.time[place[0]], history.time[place[0] + 1]
+        error.args = (
+            f"{error} (history row {place[0] + 1} of {place[1]}, time {begin:g} to {end:g})",
+        )
+        raise
+    return Run(scene_file, history=result, plan=driver.plan.explain())
+
+
+def _run_problem(scene_file: SceneFile) -> Run:
+    from usersub import problems
+
+    name, options = scene_file.problem
+    for key in ("interface", "language"):
+        value = getattr(scene_file, key)
+        if value is not None:
+            options = {key: value, **options}
+    rows = problems.run(name, **options)
+    return Run(scene_file, problem=list(rows), ok=all(r.ok for r in rows))
+
+
+def _write(run: Run) -> None:
+    output = run.scene_file.output
+    if output.csv is not None:
+        run.history.write_csv(output.csv)
+    if output.npz is not None:
+        run.history.write_npz(output.npz)
+    if output.figure is not None:
+        from usersub.scenefile import figure
+
+        figure.draw(run.history, output.figure)
+    run.written = output.files
