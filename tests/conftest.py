@@ -64,3 +64,46 @@ def _refuse_skip(report, where: str):
         report.outcome = "failed"
         report.longrepr = f"{where} was skipped where skips are forbidden: {reason}"
     return report
+
+
+@pytest.fixture(scope="session")
+def c_routine(tmp_path_factory: pytest.TempPathFactory):
+    """Makes a Routine of C source with one interface function in it, by plain `cc`.
+
+    Independent of usersub's own way of compiling user code, so that the tests of the drivers do not
+    depend on it. The libraries stay loaded.
+    """
+    made: dict[tuple, object] = {}
+
+    def make(interface: str, source: str, *, generation=None, precision="double", **more):
+        key = (interface, source, generation, precision, tuple(sorted(more.items())))
+        if key not in made:
+            folder = tmp_path_factory.mktemp("c_routine")
+            made[key] = _compiled(folder, interface, source, generation, precision, more)
+        return made[key]
+
+    return make
+
+
+def _compiled(folder, interface, source, generation, precision, more):
+    import ctypes
+    import subprocess
+
+    from usersub import abi, paths
+    from usersub.routine.routine import FULL, Entry, Routine
+
+    if shutil.which("cc") is None:
+        pytest.skip("a C compiler is missing; install it, for example with `apt-get install gcc`")
+    (folder / "routine.c").write_text(source)
+    command = ["cc", "-O2", "-fPIC", "-shared", f"-I{paths.include_folder()}", "routine.c"]
+    subprocess.run([*command, "-o", "routine.so", "-lm"], cwd=folder, check=True)
+    face = abi.interface(interface, generation)
+    library = ctypes.CDLL(str(folder / "routine.so"))
+    address = ctypes.cast(getattr(library, face.symbol), ctypes.c_void_p).value
+    entry = Entry(address, FULL, library)
+
+    def make_entry(asked: str) -> Entry:
+        assert asked == precision, f"made in {precision} precision, asked for {asked}"
+        return entry
+
+    return Routine(face, "c", "routine.c", str(folder), make_entry, **more)

@@ -4,12 +4,11 @@
  * to ours after loading, in the table of addresses through which a shared library calls others.
  * Only that library's own calls change: those of its dependencies, as of the Fortran input and
  * output library, do not. ELF on x86-64 and aarch64; elsewhere nothing is redirected. */
+#include "redirect.h"
+
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "thread.h"
-#include "usersub/usersub.h"
 
 /* NULL if it cannot be found. Never closed: it is this library. */
 static void *own_handle(Dl_info *own) {

@@ -81,7 +81,7 @@ def one_point(folder: Path) -> list[Row]:
     _, call_python = prepared(laws.decay, 1)
     found = medians(
         {
-            "empty": calls(lib.usub_empty, nothing.handle),
+            "empty": calls(lib.usub_empty, nothing._handle),
             "nothing": calls(call_nothing),
             "c": calls(call_c),
             "python": calls(call_python),

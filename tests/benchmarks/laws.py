@@ -22,10 +22,8 @@ PROPS = (0.15, 0.05, 0.01)
 
 C_ROUTINE = """\
 #include <math.h>
-void vfric_coef_(double *fCoef, double *fCoefDeriv, int *nBlock, int *nProps, int *nTemp,
-                 int *nFields, int *jFlags, double *rData, char *surfInt, char *surfSlv,
-                 char *surfMst, double *props, double *slipRate, double *pressure,
-                 double *tempAvg, double *fieldAvg) {
+#include <usersub/abi.h>
+void vfric_coef_(USUB_VFRIC_COEF_PARAMETERS) {
   for (int k = 0; k < *nBlock; ++k)
     fCoef[k] = props[1] + (props[0] - props[1]) * exp(-props[2] * slipRate[k]);
 }
@@ -48,10 +46,8 @@ void repeat(double *fCoef, const double *slipRate, const double *props, long n, 
 """
 
 C_EMPTY = """\
-void vfric_coef_(double *fCoef, double *fCoefDeriv, int *nBlock, int *nProps, int *nTemp,
-                 int *nFields, int *jFlags, double *rData, char *surfInt, char *surfSlv,
-                 char *surfMst, double *props, double *slipRate, double *pressure,
-                 double *tempAvg, double *fieldAvg) {}
+#include <usersub/abi.h>
+void vfric_coef_(USUB_VFRIC_COEF_PARAMETERS) {}
 """
 
 FORTRAN_ROUTINE = """\

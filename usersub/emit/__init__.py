@@ -17,6 +17,7 @@ GENERATORS = (
     "core_tables",
     "calls",
     "fortran_module",
+    "fortran_lists",
     "field_files",
     "reference",
 )

@@ -175,16 +175,19 @@ def _routine(face: abi.Interface, real: str, name: str) -> str:
     lines.append("      import")
     # Sizes first: a dimension has to be declared before it is used.
     for arg in sorted(face.args, key=lambda a: (a.kind != "int", bool(a.shape))):
-        shape = f"({','.join(_modern(face, s) for s in arg.shape)})" if arg.shape else ""
+        shape = modern_shape(face, arg)
         declared = f"{kinds[arg.kind]}, intent({intents[arg.intent]})"
         lines.append(f"      {declared} :: {arg.modern}{shape}")
     return "\n".join([*lines, f"    end subroutine {name}"]) + "\n"
 
 
-def _modern(face: abi.Interface, symbol: str) -> str:
-    """A dimension in the newer spelling (shapes are written in the older one)."""
-    found = face.positions.get(symbol.lower())
-    return symbol if found is None else face.args[found].modern
+def modern_shape(face: abi.Interface, arg: abi.Arg) -> str:
+    """Dimensions in the newer spelling with parentheses (tables have the older one); "" if none."""
+    symbols = []
+    for symbol in arg.shape:
+        found = face.positions.get(symbol.lower())
+        symbols.append(symbol if found is None else face.args[found].modern)
+    return f"({','.join(symbols)})" if symbols else ""
 
 
 def _statement(indent: int, statement: str) -> list[str]:

@@ -19,6 +19,9 @@ RAISED = next(s.value for s in STATUSES if s.name == "ROUTINE_RAISED")
 
 _TERM = re.compile(r"(?P<number>\d+)|(?P<name>[A-Za-z]\w*)(\((?P<index>\d+)\))?")
 
+#: Longest tuple or argument list in the generated source.
+_LONGEST = 25
+
 #: One term of a dimension: a number, or (position of an integer argument, zero-based element).
 Term = int | tuple[int, int]
 
@@ -118,7 +121,13 @@ def adapter_source(
     lines += [
         f"    a{i} = {_view(face, i, pointers[i], real, lengths.get(i, ''))}" for i in positions
     ]
-    call = f"nothing(law({', '.join(f'a{i}' for i in positions)}))"
+    arguments = [f"a{i}" for i in positions]
+    if len(arguments) > _LONGEST:
+        # Python builds longer argument lists in a way that numba does not read.
+        pieces = [arguments[i : i + _LONGEST] for i in range(0, len(arguments), _LONGEST)]
+        lines.append("    parts = " + " + ".join(f"({', '.join(p)},)" for p in pieces))
+        arguments = ["*parts"]
+    call = f"nothing(law({', '.join(arguments)}))"
     if full:
         lines.append(f"    {call}")
     else:

@@ -56,6 +56,14 @@ class Build:
         """Names of the interfaces that the source defines, in the order of the tables."""
         return tuple(name for name in abi.NAMES if name + "_" in self.functions)
 
+    @property
+    def source_language(self) -> str:
+        """Language of the source; of a prebuilt library what its debug information says."""
+        if self.language != "library":
+            return self.language
+        fortran = any(signature.fortran for signature in self.signatures.values())
+        return "fortran" if fortran else "c"
+
 
 def interface_symbols() -> set[str]:
     """External names of the five interfaces."""
@@ -76,6 +84,7 @@ def recall(library: Path, source: Path) -> Build | None:
             s["symbol"],
             s["file"],
             s["line"],
+            s["fortran"],
             tuple(debuginfo.Parameter(**p) for p in s["parameters"]),
         )
         for symbol, s in stored.pop("signatures").items()

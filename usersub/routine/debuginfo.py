@@ -33,12 +33,13 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Signature:
-    """Argument list of one function: external `symbol`, where it stands, `parameters` without the
-    hidden character lengths that gfortran adds."""
+    """Argument list of one function: external `symbol`, where it stands, whether in Fortran,
+    `parameters` without the hidden character lengths that gfortran adds."""
 
     symbol: str
     file: str
     line: int
+    fortran: bool
     parameters: tuple[Parameter, ...]
 
 
@@ -103,7 +104,11 @@ def _signature(dwarf, unit, function, symbol: str, fortran: bool) -> Signature:
         if die.tag == "DW_TAG_formal_parameter" and not _value(die, "DW_AT_artificial")
     )
     return Signature(
-        symbol, _file(dwarf, unit, function), _value(function, "DW_AT_decl_line") or 0, parameters
+        symbol,
+        _file(dwarf, unit, function),
+        _value(function, "DW_AT_decl_line") or 0,
+        fortran,
+        parameters,
     )
 
 

@@ -16,6 +16,8 @@ from usersub.routine.routine import READS, READS_AND_WRITES, UNUSED, WRITES
 _DUMMY = re.compile(
     r"^([^\s:][^:]*):(\d+):\d+: Warning: Unused dummy argument '(\w+)'", re.MULTILINE
 )
+# A dummy list that was included instead of written out; its name tells the routine.
+_LIST = re.compile(r"usersub/arguments/(\w+?)(?:_2022)?_names\.fi$")
 _PARAMETER = re.compile(
     r"^([^\s:][^:]*):(\d+):(\d+): warning: unused parameter '(\w+)'", re.MULTILINE
 )
@@ -31,6 +33,9 @@ def unused_in_fortran(
         heads.setdefault(unit.file, []).append(unit)
     names: dict[str, set[str]] = {}
     for file, line, name in _DUMMY.findall(text):
+        if listed := _LIST.search(file):
+            names.setdefault(listed[1] + "_", set()).add(name.lower())
+            continue
         # The innermost unit that begins at or before the line has the list of dummies.
         before = [u for u in heads.get(file, ()) if u.line <= int(line)]
         if before:

@@ -39,6 +39,8 @@ class Routine:
         block_safe: FRIC_COEF may be called with more than one point a call.
         thread_safe: blocks may run in different threads.
         replay: makes the entry of a slower twin that records why it fails; None if there is none.
+        after_call: to be called after each driver call; None where there is nothing to do. It hands
+            lines on Fortran units 6 and 7 to the receiver of messages.
     """
 
     interface: abi.Interface
@@ -50,6 +52,7 @@ class Routine:
     block_safe: bool = False
     thread_safe: bool = False
     replay: Callable[[str], Entry] | None = field(default=None, repr=False)
+    after_call: Callable[[], None] | None = field(default=None, compare=False, repr=False)
 
     def entry(self, precision: str = "double") -> Entry:
         """The entry for `precision`, compiled at the first request."""

@@ -244,6 +244,14 @@ module usersub
       integer(c_int32_t) :: answer
     end function usub_set_time
 
+    function usub_get_time(driver, numbers, times) bind(C, name='usub_get_time') result(answer)
+      import
+      type(usub_driver), value :: driver
+      integer(c_int32_t), intent(inout) :: numbers(*)
+      real(c_double), intent(inout) :: times(*)
+      integer(c_int32_t) :: answer
+    end function usub_get_time
+
     function usub_set_friction_work(driver, work) bind(C, name='usub_set_friction_work') &
         result(answer)
       import
@@ -436,12 +444,22 @@ module usersub
       integer(c_int32_t) :: answer
     end function usub_catch_faults
 
+    function usub_redirect_stops(library) bind(C, name='usub_redirect_stops') result(answer)
+      import
+      type(c_ptr), value :: library
+      integer(c_int32_t) :: answer
+    end function usub_redirect_stops
+
     function usub_set_job(job_name, output_folder) bind(C, name='usub_set_job') result(answer)
       import
       character(kind=c_char), intent(in) :: job_name(*)
       character(kind=c_char), intent(in) :: output_folder(*)
       integer(c_int32_t) :: answer
     end function usub_set_job
+
+    subroutine usub_end_job() bind(C, name='usub_end_job')
+      import
+    end subroutine usub_end_job
 
     function usub_empty(driver) bind(C, name='usub_empty') result(answer)
       import

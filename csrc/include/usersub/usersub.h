@@ -225,9 +225,6 @@ int32_t usub_catch_faults(int32_t on);
  * (RTLD_LAZY). usub_routine_open does this itself.
  * @return number of calls redirected, 0 where the system is not known, or a negative status. */
 int32_t usub_redirect_stops(void *library);
-/** Lets libraries that are loaded from now on find the utility routines (XIT, GETPARTINFO, ...) even
- * if they are bound when loaded; needed only when dlopen reports one of them as undefined. */
-int32_t usub_publish_utilities(void);
 /** What GETJOBNAME and GETOUTDIR answer (default "usersub" and "."). */
 int32_t usub_set_job(const char *job_name, const char *output_folder);
 /** Ends the analysis that routines know of: the allocatable arrays of all threads are deleted. No

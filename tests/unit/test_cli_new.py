@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""`usersub new`: what it makes runs, passes its own tests and is never overwritten."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from click.testing import CliRunner
+
+from usersub import abi
+from usersub.cli.main import cli
+from usersub.cli.new import contents, fortran_header
+
+LANGUAGES = ("python", "c", "fortran")
+
+
+def run(*args: object):
+    return CliRunner().invoke(cli, [str(a) for a in args], prog_name="usersub")
+
+
+@pytest.mark.parametrize("name", abi.NAMES)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_contents_are_filled(name, language):
+    for text in contents("my_law", name, language).values():
+        assert "@my" not in text and "SPDX" not in text
+        for word in ("NAME", "FILE", "HEADER", "PARAMETERS", "IMPORTS", "SKIP"):
+            assert f"@{word}@" not in text
+        assert max(map(len, text.splitlines())) <= 100
+        assert "my_law" in text
+
+
+@pytest.mark.parametrize("face", abi.INTERFACES, ids=lambda f: f.key)
+def test_fortran_header_has_every_argument_once(face):
+    header = fortran_header(face).replace("&\n", " ")
+    names = header.split("(", 1)[1].split(")", 1)[0].replace(" ", "").split(",")
+    assert names == [a.modern for a in face.args]
+    assert max(map(len, fortran_header(face).splitlines())) <= 80
+
+
+@pytest.mark.parametrize("name", abi.NAMES)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_new_runs_at_once(name, language, tmp_path, request):
+    if language == "fortran":
+        request.getfixturevalue("fortran")
+    made = run("new", "my_law", "-i", name, "-l", language, "--dir", tmp_path / "deep" / "er")
+    assert made.exit_code == 0, made.stderr
+    folder = tmp_path / "deep" / "er"
+    result = run("run", folder / "my_law.toml", "--json")
+    assert result.exit_code == 0, result.stderr
+    rows = json.loads(result.stdout)["results"]
+    assert len(rows) == 30 and rows[-1]["time"] == 3.0
+    # A friction routine whose coefficient is 0 would not be one.
+    assert max(abs(row["mobilised"]) for row in rows) > 0.19
+    assert (folder / "my_law.csv").read_text().count("\n") == 31
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_new_passes_its_own_tests(language, tmp_path, request):
+    if language == "fortran":
+        request.getfixturevalue("fortran")
+    for name in abi.NAMES:
+        assert run("new", f"my_{name}", "-i", name, "-l", language, "-d", tmp_path).exit_code == 0
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)],
+        capture_output=True, text=True, cwd=tmp_path, check=False,
+    )
+    assert done.returncode == 0, done.stdout
+    assert "skipped" not in done.stdout
+
+
+def test_nothing_is_overwritten(tmp_path):
+    (tmp_path / "a.toml").write_text("mine")
+    result = run("new", "a", "-i", "vfric", "-l", "c", "-d", tmp_path)
+    assert result.exit_code == 1
+    assert "a.toml exists already" in result.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["a.toml"]
+    assert (tmp_path / "a.toml").read_text() == "mine"
+
+
+def test_for_programs(tmp_path):
+    found = json.loads(run("new", "a", "-i", "VFRIC", "-l", "c", "-d", tmp_path, "--json").stdout)
+    assert [r["kind"] for r in found["results"]] == ["routine", "test", "scene"]
+    assert found["results"][0]["path"].endswith("a.c")
+
+
+def test_folder_that_cannot_be(tmp_path):
+    (tmp_path / "file").write_text("")
+    result = run("new", "a", "-i", "vfric", "-l", "c", "-d", tmp_path / "file" / "below")
+    assert result.exit_code in (1, 2)
+    assert "Traceback" not in result.stderr and "file" in result.stderr

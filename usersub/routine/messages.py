@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MIT
+"""What routines say: STDB_ABQERR, XPLB_ABQERR, and lines on Fortran units 6 and 7.
+
+Units 6 and 7 of the whole process are connected to files without a name as soon as a routine is
+loaded that writes to units, so that no `fort.7` appears in the working directory; after each driver
+call the new lines go to the receiver.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import os
+import sys
+import tempfile
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from usersub.errors import CompileError
+from usersub.routine import cache, compilers
+
+#: Gets a level and a text: 1 information, -1 warning, -2 error, -3 fatal, 0 a line on a unit.
+Receiver = Callable[[int, str], None]
+
+_PREFIX = {1: "", -1: "warning: ", -2: "error: ", -3: "fatal error: "}
+_UNITS = (6, 7)
+#: A unit's file starts again at this size.
+_LARGEST = 1 << 22
+
+_HELPER = """\
+subroutine usub_unit_open(unit, path, length, state) bind(c)
+  use iso_c_binding
+  integer(c_int), value :: unit, length
+  character(kind=c_char), intent(in) :: path(*)
+  integer(c_int), intent(out) :: state
+  character(len=length) :: name
+  integer :: i
+  do i = 1, length
+    name(i:i) = path(i)
+  end do
+  open (unit=unit, file=name, form='formatted', status='old', action='readwrite', iostat=state)
+end subroutine
+integer(c_int) function usub_unit_flush(unit, again) bind(c)
+  use iso_c_binding
+  integer(c_int), value :: unit, again
+  logical :: connected
+  inquire (unit=unit, opened=connected)
+  usub_unit_flush = 0
+  if (connected) then
+    flush (unit)
+    if (again /= 0) rewind (unit)
+    usub_unit_flush = 1
+  end if
+end function
+"""
+
+
+def _to_stderr(level: int, text: str) -> None:
+    print(_PREFIX.get(level, "") + text, file=sys.stderr)
+
+
+_receiver: Receiver | None = _to_stderr
+_handler: object = None
+_lock = threading.RLock()
+
+
+def messages_to(receiver: Receiver | str | os.PathLike | None = _to_stderr) -> None:
+    """Sets who gets what routines say; the setting holds for the process.
+
+    Args:
+        receiver: a function of level and text, a path to which lines are appended, or None to
+            drop everything. Without an argument: lines on `sys.stderr`, as at the start.
+    """
+    global _receiver
+    after_call()
+    if isinstance(receiver, str | os.PathLike):
+        receiver = _appender(Path(receiver))
+    _receiver = receiver
+    connect()
+
+
+def _appender(path: Path) -> Receiver:
+    with path.open("a", encoding="utf-8"):
+        pass  # a path that cannot be written is refused here, not in the middle of a run
+
+    def append(level: int, text: str) -> None:
+        with path.open("a", encoding="utf-8") as file:
+            file.write(_PREFIX.get(level, "") + text + "\n")
+
+    return append
+
+
+def connect() -> None:
+    """Connects the C core's messages to the receiver; any number of times."""
+    global _handler
+    if _handler is not None:
+        return
+    from usersub.core import ffi, lib
+
+    def handle(_context, level, text):
+        _say(level, ffi.string(text).decode("utf-8", "replace"))
+
+    _handler = ffi.callback("void(void *, int32_t, const char *)", handle)
+    lib.usub_set_message_handler(_handler, ffi.NULL)
+
+
+def _say(level: int, text: str) -> None:
+    if _receiver is not None:
+        _receiver(level, text)
+
+
+class _Unit:
+    """One Fortran unit of the process, connected to a file that has no name any more."""
+
+    def __init__(self, helper: ctypes.CDLL, number: int):
+        self._helper, self._number = helper, number
+        self._rest = b""
+        self._open()
+
+    def _open(self) -> None:
+        handle, name = tempfile.mkstemp(prefix="usersub-unit-")
+        state = ctypes.c_int(0)
+        path = os.fsencode(name)
+        self._helper.usub_unit_open(self._number, path, len(path), ctypes.byref(state))
+        os.unlink(name)
+        self._handle, self._at, self._owner = handle, 0, os.getpid()
+
+    def lines(self) -> list[str]:
+        """Lines that are new since the last time."""
+        again = self._at > _LARGEST
+        connected = self._helper.usub_unit_flush(self._number, 0)
+        data = self._rest + os.pread(self._handle, 1 << 30, self._at)
+        self._at += len(data) - len(self._rest)
+        if not connected or self._owner != os.getpid():
+            os.close(self._handle)
+            self._open()
+        elif again:
+            self._helper.usub_unit_flush(self._number, 1)
+            os.ftruncate(self._handle, 0)
+            self._at = 0
+        *whole, self._rest = data.split(b"\n")
+        return [line.decode("utf-8", "replace") for line in whole]
+
+
+_units: list[_Unit] = []
+
+
+def connect_units() -> None:
+    """Connects units 6 and 7 of gfortran's run-time library; once.
+
+    Raises:
+        MissingTool, CompileError: the few lines of Fortran that do it cannot be compiled.
+    """
+    with _lock:
+        if not _units:
+            helper = ctypes.CDLL(str(_helper_library()), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+            _units.extend(_Unit(helper, number) for number in _UNITS)
+            atexit.register(after_call)
+
+
+def _helper_library() -> Path:
+    compiler = compilers.find("fortran")
+    target = cache.path("units", cache.key("units", compiler.version, _HELPER), ".so")
+    if not target.is_file():
+        with cache.build_folder() as folder:
+            (folder / "units.f90").write_text(_HELPER, encoding="ascii")
+            command = [*compiler.command, "-O1", "-fPIC", "-shared", "units.f90", "-o", "units.so"]
+            outcome = compilers.run(command, folder)
+            if outcome.code:
+                raise CompileError(f"units 6 and 7 cannot be connected: {outcome.text.strip()}")
+            cache.put(folder / "units.so", target)
+    return target
+
+
+def after_call() -> None:
+    """Hands new lines on units 6 and 7 to the receiver; what a routine with output gives to
+    `Routine.after_call`."""
+    with _lock:
+        for unit in _units:
+            for line in unit.lines():
+                _say(0, line)
