@@ -13,7 +13,7 @@ with (ROOT / "pyproject.toml").open("rb") as file:
 
 project = _project["name"]
 author = _project["authors"][0]["name"]
-copyright = f"2025, {author}"  # noqa: A001 - the name is Sphinx's
+copyright = f"2026, {author}"  # noqa: A001 - the name is Sphinx's
 release = version = _project["version"]
 
 extensions = [

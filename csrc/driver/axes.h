@@ -186,7 +186,14 @@ static inline void F(usub_zero_slip_axis)(const R n[3], R t1[3]) {
     factor = (R)1 / ((R)1 + n[2]);
   } else {
     /* 1 + n_z = (n_x^2 + n_y^2) / (1 - n_z), without the cancellation of the left side. */
-    const R radius = F(usub_norm2)(c, s);
+    R sum = c * c + s * s;
+    if (sum < USUB_AXES_FLOOR) {
+      const int e = F(usub_axes_exponent)(c, s, (R)0);
+      c = M(ldexp)(c, -e);
+      s = M(ldexp)(s, -e);
+      sum = c * c + s * s;
+    }
+    const R radius = M(sqrt)(sum);
     factor = (R)1 - n[2];
     c = radius > (R)0 ? c / radius : (R)0;
     s = radius > (R)0 ? s / radius : (R)0;
@@ -194,6 +201,11 @@ static inline void F(usub_zero_slip_axis)(const R n[3], R t1[3]) {
   t1[0] = (R)1 - factor * c * c;
   t1[1] = -factor * c * s;
   t1[2] = -n[0];
+  /* One step towards unit length takes out the rounding of n, which counts twice near the pole. */
+  const R length = (R)1.5 - (R)0.5 * (t1[0] * t1[0] + t1[1] * t1[1] + t1[2] * t1[2]);
+  t1[0] *= length;
+  t1[1] *= length;
+  t1[2] *= length;
 }
 
 static inline void F(usub_axes3)(const R slip[3], const R n[3], R t1[3], R t2[3], R *length) {

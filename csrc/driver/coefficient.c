@@ -74,7 +74,7 @@ static void transpose(const char *from, char *to, int32_t first, int32_t n, int3
 
 /* What a routine of the 2022 generation gets besides slices (double precision only). */
 static void fill_2022(usub_driver *driver, usub_call *call, int32_t first) {
-  const double *data = usub_data(driver, "slip_data"), *rate = usub_data(driver, "slip_rate");
+  const double *data = driver->memory.slip_data, *rate = driver->memory.slip_rate;
   double *slip = call->argv[SLIP];
   if (usub_is_live(driver, SLIP)) {
     if (data)
@@ -96,24 +96,30 @@ static void fill_2022(usub_driver *driver, usub_call *call, int32_t first) {
     memcpy(rdata, head, sizeof head);
     if (driver->size.S)
       memcpy(rdata + RDATA_HEAD,
-             (double *)usub_data(driver, "state") + (size_t)first * (size_t)driver->size.S,
+             (double *)driver->memory.state + (size_t)first * (size_t)driver->size.S,
              (size_t)driver->size.S * sizeof *rdata);
   }
 }
 
 /* Refuses NaN and infinity in what the routine reads. */
 static int32_t check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first) {
-  static const char *const names[] = {"slip_rate", "slip_data", "pressure", "temperature"};
-  for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
-    const usub_slot *slot = usub_slot_find(driver, names[i]);
-    if (!slot->data) continue;
-    const char *data = (const char *)slot->data + (size_t)first * slot->per_point * slot->element;
-    const ptrdiff_t bad =
-        usub_first_bad(data, (size_t)call->n * slot->per_point, driver->single);
+  const struct {
+    const char *name;
+    const void *data;
+    int32_t per_point;
+  } inputs[] = {{"slip_rate", driver->memory.slip_rate, 1},
+                {"slip_data", driver->memory.slip_data, SLIP_COLUMNS},
+                {"pressure", driver->memory.pressure, 1},
+                {"temperature", driver->memory.temperature, 1}};
+  for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
+    if (!inputs[i].data) continue;
+    const size_t per_point = (size_t)inputs[i].per_point;
+    const char *data = (const char *)inputs[i].data + (size_t)first * per_point * driver->size.real;
+    const ptrdiff_t bad = usub_first_bad(data, (size_t)call->n * per_point, driver->single);
     if (bad < 0) continue;
-    const int32_t point = first + (int32_t)((size_t)bad / slot->per_point);
+    const int32_t point = first + (int32_t)((size_t)bad / per_point);
     return usub_block_fail(driver, call, index, point, USUB_BAD_INPUT,
-                           "%s: %s of point %d is not finite", driver->title, names[i], point);
+                           "%s: %s of point %d is not finite", driver->title, inputs[i].name, point);
   }
   return USUB_OK;
 }
@@ -125,7 +131,7 @@ static double real_at(const void *data, size_t i, int32_t single) {
 /* Copies the answer of a 2022 routine to the host's arrays. */
 static int32_t empty_2022(usub_driver *driver, usub_call *call, int32_t index, int32_t first) {
   const double *coef = call->argv[COEF];
-  double *one = usub_data(driver, "coefficient"), *two = usub_data(driver, "second_coefficient");
+  double *one = driver->memory.coefficient, *two = driver->memory.second_coefficient;
   for (int32_t k = 0; k < call->n; ++k) {
     one[first + k] = coef[k];
     const int touched = !isnan(coef[call->n + k]);
@@ -139,13 +145,13 @@ static int32_t empty_2022(usub_driver *driver, usub_call *call, int32_t index, i
     if (two) two[first + k] = coef[call->n + k];
   }
   if (driver->size.S)
-    memcpy((double *)usub_data(driver, "state") + (size_t)first * (size_t)driver->size.S,
+    memcpy((double *)driver->memory.state + (size_t)first * (size_t)driver->size.S,
            (double *)call->argv[RDATA] + RDATA_HEAD, (size_t)driver->size.S * sizeof(double));
   return USUB_OK;
 }
 
 static void empty_derivatives(usub_driver *driver, const usub_call *call, int32_t first) {
-  char *out = usub_data(driver, "derivative");
+  char *out = driver->memory.derivative;
   const char *in = call->argv[DERIV];
   const size_t real = driver->size.real;
   if (!out) return;
@@ -160,11 +166,14 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
   const int modern = is_2022(driver);
   usub_aim(driver, call, first, rest < driver->block ? rest : driver->block);
   const size_t n = (size_t)call->n;
-  int32_t status = check_inputs(driver, call, index, first);
+  /* A routine without memory of its own may see bad input, since its answer is thrown away: looking
+   * at the input after the call finds it in the nearest cache. */
+  const int look_later = driver->routine.thread_safe;
+  int32_t status = look_later ? USUB_OK : check_inputs(driver, call, index, first);
   if (status) return status;
   if (modern) fill_2022(driver, call, first);
   if (usub_is_live(driver, FIELD))
-    transpose(usub_data(driver, "field"), call->argv[FIELD], first, call->n, driver->size.P, real);
+    transpose(driver->memory.field, call->argv[FIELD], first, call->n, driver->size.P, real);
   memset(call->argv[COEF], 0, n * real);
   if (modern) /* NaN tells whether an isotropic routine left the second coefficient alone */
     for (size_t k = 0; k < n; ++k) ((double *)call->argv[COEF])[n + k] = NAN;
@@ -172,6 +181,8 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
     memset(call->argv[DERIV], 0, n * real * (modern ? 2 * SLOTS_2022 : 3));
   char reason[256] = "";
   status = usub_call_guarded(driver, call, reason);
+  const int32_t seen = look_later ? check_inputs(driver, call, index, first) : USUB_OK;
+  if (seen) return seen;
   if (status < 0)
     return usub_block_fail(driver, call, index, call->n == 1 ? first : -1, status,
                            "%s: the routine ended with %s in points %d to %d", driver->title, reason,
@@ -195,10 +206,9 @@ int32_t usub_evaluate(usub_driver *driver) {
                      driver->title);
   int32_t status = driver->prepared && driver->aimed ? USUB_OK : usub_prepare(driver);
   if (status) return status;
-  const usub_slot *state = usub_slot_find(driver, "state");
-  const size_t bytes = state->count * state->element;
-  if (bytes) memcpy(driver->state_backup, state->data, bytes);
+  const size_t bytes = (size_t)driver->size.S * (size_t)driver->size.N * driver->size.real;
+  if (bytes) memcpy(driver->state_backup, driver->memory.state, bytes);
   status = usub_run_blocks(driver, usub_coefficient_block);
-  if (status < 0 && bytes) memcpy(state->data, driver->state_backup, bytes);
+  if (status < 0 && bytes) memcpy(driver->memory.state, driver->state_backup, bytes);
   return status;
 }

@@ -96,6 +96,13 @@ typedef struct usub_slot {
   int32_t bound;
 } usub_slot;
 
+/** Memory of every array by name, NULL where there is none: hot code does not search. */
+typedef struct usub_memory {
+#define PORT_NAME(name) void *name;
+#include "port_names.inc"
+#undef PORT_NAME
+} usub_memory;
+
 /** Where the memory of an argument comes from. */
 typedef enum {
   USUB_LEFT_OUT, /* nobody reads or writes it: a read-only page of zeros */
@@ -157,6 +164,7 @@ struct usub_driver {
   int32_t aimed;    /* the fixed argument pointers are set */
   usub_slot slots[USUB_MAX_SLOTS];
   int32_t slot_count;
+  usub_memory memory; /* of the slots; valid once prepared */
   usub_source sources[USUB_MAX_ARGS];
   int32_t moving[USUB_MAX_ARGS], moving_count; /* arguments that are slices */
   usub_call *calls; /* one a worker */
@@ -207,7 +215,7 @@ int32_t usub_interface_key(const usub_interface *face);
 int32_t usub_slots_create(usub_driver *driver, usub_error *error);
 void usub_slots_free(usub_driver *driver);
 usub_slot *usub_slot_find(usub_driver *driver, const char *name);
-/** Memory of a slot, NULL if nothing is bound or owned. */
+/** Memory of a slot, NULL if nothing is bound or owned. For plans; calls use `memory`. */
 void *usub_data(const usub_driver *driver, const char *name);
 /** Index of the first NaN or infinity in `n` reals, -1 if there is none. */
 ptrdiff_t usub_first_bad(const void *data, size_t n, int32_t single);

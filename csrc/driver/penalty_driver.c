@@ -35,18 +35,18 @@ void usub_penalty_plan(usub_driver *driver) {
     usub_put_scratch(driver, RDATA, 0, (RDATA_HEAD + (size_t)driver->size.S) * real, "computed",
                      "times, rotation, state variables");
   }
-  const usub_point_arrays at = usub_point_arrays_of(driver);
   if (driver->set.temperatures) {
     usub_need_array(driver, TEMP, "temperature_secondary");
     usub_need_array(driver, TEMP, "temperature_main");
   }
-  if (driver->set.temperatures && at.temperature[0] && at.temperature[1])
+  if (driver->set.temperatures && usub_data(driver, "temperature_secondary") &&
+      usub_data(driver, "temperature_main"))
     usub_put_scratch(driver, TEMP, 0, real, "computed", "mean of the two surfaces");
   else
     usub_put_absent(driver, TEMP, real, "the scene has no temperatures");
   usub_need_array(driver, FIELD, "field_secondary");
   usub_need_array(driver, FIELD, "field_main");
-  if (fields && at.field[0] && at.field[1])
+  if (fields && usub_data(driver, "field_secondary") && usub_data(driver, "field_main"))
     usub_put_scratch(driver, FIELD, 0, fields, "computed", "mean of the two surfaces");
   else
     usub_put_absent(driver, FIELD, fields, "the scene has no fields");

@@ -160,6 +160,9 @@ static int32_t make_calls(usub_driver *driver) {
 
 /* Sets the pointers that do not move from block to block. */
 static void aim_fixed(usub_driver *driver) {
+#define PORT_NAME(name) driver->memory.name = usub_data(driver, #name);
+#include "port_names.inc"
+#undef PORT_NAME
   driver->moving_count = 0;
   for (int32_t i = 0; i < driver->face->count; ++i) {
     const usub_source *source = &driver->sources[i];

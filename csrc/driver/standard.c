@@ -246,32 +246,32 @@ static int32_t empty_point(usub_driver *driver, usub_call *call, const usub_poin
 
 usub_point_arrays usub_point_arrays_of(const usub_driver *driver) {
   return (usub_point_arrays){
-      .lm = usub_data(driver, "lm"),
-      .condition = usub_data(driver, "condition"),
-      .closed = usub_data(driver, "closed"),
-      .node = usub_data(driver, "node"),
-      .tau = usub_data(driver, "tau"),
-      .ddtddg = usub_data(driver, "ddtddg"),
-      .ddtddp = usub_data(driver, "ddtddp"),
-      .ddtddt = usub_data(driver, "ddtddt"),
-      .dslip = usub_data(driver, "dslip"),
-      .sed = usub_data(driver, "sed"),
-      .sfd = usub_data(driver, "sfd"),
-      .slip = usub_data(driver, "slip"),
-      .state = usub_data(driver, "state"),
-      .committed_tau = usub_data(driver, "committed_tau"),
-      .committed_sed = usub_data(driver, "committed_sed"),
-      .committed_pressure = usub_data(driver, "committed_pressure"),
-      .slip_increment = usub_data(driver, "slip_increment"),
-      .pressure = usub_data(driver, "pressure"),
-      .multiplier = usub_data(driver, "multiplier"),
-      .rotation = usub_data(driver, "rotation"),
-      .temperature = {usub_data(driver, "temperature_secondary"),
-                      usub_data(driver, "temperature_main")},
-      .field = {usub_data(driver, "field_secondary"), usub_data(driver, "field_main")},
-      .elastic_slip = usub_data(driver, "elastic_slip"),
-      .equivalent_slip = usub_data(driver, "equivalent_slip"),
-      .coefficient = usub_data(driver, "coefficient"),
+      .lm = driver->memory.lm,
+      .condition = driver->memory.condition,
+      .closed = driver->memory.closed,
+      .node = driver->memory.node,
+      .tau = driver->memory.tau,
+      .ddtddg = driver->memory.ddtddg,
+      .ddtddp = driver->memory.ddtddp,
+      .ddtddt = driver->memory.ddtddt,
+      .dslip = driver->memory.dslip,
+      .sed = driver->memory.sed,
+      .sfd = driver->memory.sfd,
+      .slip = driver->memory.slip,
+      .state = driver->memory.state,
+      .committed_tau = driver->memory.committed_tau,
+      .committed_sed = driver->memory.committed_sed,
+      .committed_pressure = driver->memory.committed_pressure,
+      .slip_increment = driver->memory.slip_increment,
+      .pressure = driver->memory.pressure,
+      .multiplier = driver->memory.multiplier,
+      .rotation = driver->memory.rotation,
+      .temperature = {driver->memory.temperature_secondary,
+                      driver->memory.temperature_main},
+      .field = {driver->memory.field_secondary, driver->memory.field_main},
+      .elastic_slip = driver->memory.elastic_slip,
+      .equivalent_slip = driver->memory.equivalent_slip,
+      .coefficient = driver->memory.coefficient,
   };
 }
 
@@ -370,9 +370,9 @@ int32_t usub_iterate(usub_driver *driver) {
     return status;
   }
   const size_t n = (size_t)driver->points;
-  memcpy(driver->last_lm, usub_data(driver, "lm"), n * sizeof *driver->last_lm);
+  memcpy(driver->last_lm, driver->memory.lm, n * sizeof *driver->last_lm);
   memcpy(driver->last_closed, driver->closed_now, n);
-  memcpy(driver->last_dslip, usub_data(driver, "dslip"), n * (size_t)driver->size.F * sizeof(double));
+  memcpy(driver->last_dslip, driver->memory.dslip, n * (size_t)driver->size.F * sizeof(double));
   driver->iterated = 1;
   driver->pnewdt = USUB_PNEWDT_PRESET;
   for (int32_t w = 0; w < driver->threads; ++w)

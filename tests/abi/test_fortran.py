@@ -128,6 +128,9 @@ FIXED = """\
       n(2) = kind(SMALocalIntArrayCreate(1, 20))
       n(3) = kind(SMALocalIntArrayCreate(1, 20, 7))
       n(4) = kind(SMAFloatArrayCreate(1, 20, 1.e0))
+      n(5) = kind(SMALocalFloatArrayCreate(1, 20))
+      n(5) = kind(SMAStructArrayCreate(1, 20, sizeof(n)))
+      n(5) = kind(SMAStructArrayCreate(1, 20, 8, x))
       n(5) = kind(SMALocalFloatArrayAccess(2))
       end
 """

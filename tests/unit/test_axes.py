@@ -124,7 +124,8 @@ def test_orthonormal_and_along_the_slip(real, normal, slip, exponent, data):
     whole = mpmath.sqrt(dot(exact(slip), exact(slip)))
     tiny = float(np.finfo(real.dtype).smallest_subnormal)
     # The projection rounds at eps |slip|; a direction can be no better than that over its length.
-    assert abs(length - part) <= 4 * real.eps * whole + tiny
+    # A part of 4 eps |slip| as it is computed is dropped.
+    assert abs(length - part) <= (6 if length == 0 else 3) * real.eps * whole + tiny
     if part > 16 * real.eps * whole:
         allowed = 3 * real.eps * (1 + 3 * whole / part)
         assert max(abs(v[i] / part - float(t1[i])) for i in range(3)) <= allowed

@@ -169,6 +169,9 @@ class Driver:
     def load_state(self, data: bytes) -> None:
         """Takes over saved state (`state.load`)."""
         self._check(lib.usub_state_load(self._handle, ffi.from_buffer(data), len(data)))
+        numbers, times = ffi.new("int32_t[2]"), ffi.new("double[3]")
+        self._check(lib.usub_get_time(self._handle, numbers, times))
+        self._clock.load(numbers, times)
 
     # Calls.
 
@@ -259,6 +262,12 @@ class Clock:
             _int32("step", step), _int32("increment", increment), float(step_time),
             float(total_time), duration,
         )
+
+    def load(self, numbers: Any, times: Any) -> None:
+        """Takes over the clock of a loaded state."""
+        self.step, self.increment = numbers[0] or 1, numbers[1]
+        self.step_time, self.total_time = times[0], times[1]
+        self.pending = None
 
     def accept(self) -> None:
         """Makes the pending increment the last accepted one."""

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 class State(Mapping[str, np.ndarray]):
     """The committed state: a mapping from name to a view of the driver's own memory.
 
-    Writing to a view sets initial conditions. Save between increments; times are the host's and not
-    part of the state.
+    Writing to a view sets initial conditions. Save between increments; the clock is saved too.
     """
 
     def __init__(self, driver: Driver) -> None:

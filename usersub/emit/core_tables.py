@@ -25,10 +25,11 @@ _COLUMNS = """\
 
 
 def artefacts() -> dict[str, str]:
-    """`tables.h` with the numbers and three lists."""
+    """`tables.h` with the numbers, and the lists."""
     return {
         FOLDER + "tables.h": _numbers(),
         FOLDER + "ports.inc": _ports(),
+        FOLDER + "port_names.inc": _port_names(),
         FOLDER + "settings.inc": _settings(),
         FOLDER + "interfaces.inc": _interfaces(),
     }
@@ -72,6 +73,16 @@ def _ports() -> str:
         ]  # fmt: skip
         rows.append("PORT(" + "\n".join(text.wrapped(values, 5)).lstrip() + ")")
     return text.banner(__name__) + _COLUMNS + "\n".join(rows) + "\n"
+
+
+def _port_names() -> str:
+    names = dict.fromkeys(port.name for port in ports.PORTS)
+    return (
+        text.banner(__name__)
+        + "/* PORT_NAME(name) for every name of an array, each once. */\n"
+        + "\n".join(f"PORT_NAME({name})" for name in names)
+        + "\n"
+    )
 
 
 def _settings() -> str:

@@ -18,7 +18,6 @@ FOLDER = "csrc/include/usersub/field/"
 VECTOR_LENGTH = 136
 
 _INT, _INT8, _REAL4, _REAL8 = "integer", "integer(8)", "real(4)", "real(8)"
-_C_TYPES = {_INT: "int", _REAL4: "float", _REAL8: "double"}
 
 
 def artefacts() -> dict[str, str]:
@@ -93,10 +92,12 @@ def _arrays() -> list[str]:
             lines += _procedure(f"{name}Access", _INT8, (one,))
             lines += _procedure(f"{name}Size", _INT8, (one,))
             lines += _procedure(f"{name}Delete", None, (one,))
-        item = (("items", _INT), ("bytes", _INT), ("value", "type(*)?"))
+        # The size of an item is a default integer or, from SIZEOF, an 8-byte one.
+        item = (("items", _INT), ("bytes", "type(*)"), ("value", "type(*)?"))
         lines += _procedure(f"{stem}StructArrayCreate", _INT8, (one, *item))
         lines += ["end interface", f"interface {stem}FloatArrayCreate"]
-        for suffix, kind in (("SP", _REAL4), ("DP", _REAL8)):
+        # The type of the initial value tells the precision; without one it is double.
+        for suffix, kind in (("SP", _REAL4), ("DP", _REAL8 + "?")):
             parameters = (one, size, ("value", kind))
             lines += _procedure(f"{stem}FloatArrayCreate{suffix}", _INT8, parameters)
         lines.append("end interface")
@@ -137,7 +138,7 @@ def _c_arrays() -> str:
     lines = []
     for stem in ("SMA", "SMALocal"):
         lines.append(f"int *{stem}IntArrayCreate(int id, int length, int value);")
-        for suffix, real in (("SP", "float"), ("DP", "double")):
+        for suffix, real in (("", "double"), ("SP", "float"), ("DP", "double")):
             lines.append(
                 f"{real} *{stem}FloatArrayCreate{suffix}(int id, int length, {real} value);"
             )

@@ -30,9 +30,11 @@ def coefficient_fric(law: _Law) -> PythonRoutine:
     @fric
     def routine(LM, TAU, DDTDDG, DDTDDP, DDTDDT, DSLIP, SED, SFD, STATEV, DGAM, DROT, PRESS, DTIME,
                 CHRLNGTH, TEMP, PROPS):  # fmt: skip
-        if LM[0] == 2:  # open so far: no friction in the increment that closes the point
-            return
         n = DGAM.shape[0]
+        if LM[0] == 2:  # open so far: no friction in the increment that closes the point
+            for a in range(min(n, STATEV.shape[0])):
+                STATEV[a] = 0.0
+            return
         allowable = _TOLERANCE * CHRLNGTH
         if PROPS.shape[0] < needed(PROPS):
             raise ValueError(few)

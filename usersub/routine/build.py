@@ -35,6 +35,7 @@ class Build:
         writes_units: it uses Fortran units.
         absent: functions that other entries of the file call and that do not exist here.
         guarded: symbols of block style that turn C++ exceptions into a status, by interface.
+        missing: symbols that a prebuilt library needs from others.
     """
 
     library: Path
@@ -50,6 +51,7 @@ class Build:
     writes_units: bool
     absent: tuple[str, ...] = ()
     guarded: dict[str, str] | None = None
+    missing: tuple[str, ...] = ()
 
     @property
     def interfaces(self) -> tuple[str, ...]:

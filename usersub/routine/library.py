@@ -46,6 +46,7 @@ def examine(path: Path, precision: str) -> Build:
         shared=contents.shared,
         writes_units=contents.writes_units,
         absent=absent,
+        missing=contents.missing,
     )
 
 
@@ -61,34 +62,61 @@ def _linked(path: Path) -> tuple[Path, tuple[str, ...]]:
         return target, build.link(compiler, path, [part], base, target)
 
 
-def open_library(path: Path, missing: tuple[str, ...] = ()) -> ctypes.CDLL:
-    """Loads a library with its names kept to itself and every symbol resolved now.
+def open_library(path: Path) -> ctypes.CDLL:
+    """Loads a library of the cache: names kept to itself, every symbol resolved now."""
+    try:
+        return ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+    except OSError as error:
+        raise LoadError(f"{path.name} cannot be loaded: {error}") from error
+
+
+def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
+    """Loads a library that was built without usersub.
+
+    Its calls of utility routines (XIT, GETPARTINFO ...) and of STOP, exit and abort come to
+    libusersub.
 
     Args:
-        missing: symbols that a prebuilt library needs from its host. Where they are utility
-            routines, libusersub is made visible first: such libraries are not linked with it.
+        missing: symbols that the library needs and does not define.
 
     Raises:
         LoadError: the loader's words, or the symbols that nobody defines.
     """
+    ours = support().library
+    offered = set(objects.read(ours).functions)
     try:
-        if missing:
-            _offer(set(missing))
-        return ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+        if offered.intersection(missing):
+            # Libraries that resolve everything when they are opened have to find them then.
+            ctypes.CDLL(str(ours), mode=os.RTLD_GLOBAL | os.RTLD_NOW)
+        loaded = ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_LAZY)
     except OSError as error:
         found = _UNRESOLVED.search(str(error))
         if found:
-            raise LoadError(
-                f"{path.name} needs {found[1]}, which neither the library, the libraries that it "
-                "names, nor usersub defines"
-            ) from error
+            raise LoadError(_needs(path, [found[1]])) from error
         raise LoadError(f"{path.name} cannot be loaded: {error}") from error
+    process = ctypes.CDLL(None)
+    nowhere = [
+        name
+        for name in missing
+        if name not in offered and not address(loaded, name) and not address(process, name)
+    ]
+    if nowhere:
+        raise LoadError(_needs(path, nowhere))
+    _redirect_stops(loaded)
+    return loaded
 
 
-def _offer(names: set[str]) -> None:
-    ours = support().library
-    if names.intersection(objects.read(ours).functions):
-        ctypes.CDLL(str(ours), mode=os.RTLD_GLOBAL | os.RTLD_NOW)
+def _needs(path: Path, names: list[str]) -> str:
+    return (
+        f"{path.name} needs {', '.join(names)}, which neither the library, the libraries that it "
+        "names, nor usersub defines"
+    )
+
+
+def _redirect_stops(loaded: ctypes.CDLL) -> None:
+    from usersub.core import ffi, lib
+
+    lib.usub_redirect_stops(ffi.cast("void *", loaded._handle))
 
 
 def address(library: ctypes.CDLL, symbol: str) -> int:

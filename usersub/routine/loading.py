@@ -129,8 +129,11 @@ class Code:
             build = self.build(precision)
             if build.writes_units:
                 messages.connect_units()
-            prebuilt = build.language == "library" and build.library == build.source
-            self._loaded[precision] = library.open_library(build.library, prebuilt)
+            if build.library == build.source:
+                loaded = library.open_prebuilt(build.library, build.missing)
+            else:
+                loaded = library.open_library(build.library)
+            self._loaded[precision] = loaded
         return self._loaded[precision]
 
     def check(self, face: abi.Interface, precision: str) -> None:

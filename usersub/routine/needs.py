@@ -17,7 +17,7 @@ _DUMMY = re.compile(
     r"^([^\s:][^:]*):(\d+):\d+: Warning: Unused dummy argument '(\w+)'", re.MULTILINE
 )
 # A dummy list that was included instead of written out; its name tells the routine.
-_LIST = re.compile(r"usersub/arguments/(\w+?)(?:_2022)?_names\.fi$")
+_LIST = re.compile(rf"(?:^|/)({'|'.join(abi.NAMES)})(?:_2022)?_names\.fi$")
 _PARAMETER = re.compile(
     r"^([^\s:][^:]*):(\d+):(\d+): warning: unused parameter '(\w+)'", re.MULTILINE
 )

@@ -34,7 +34,7 @@ class Support:
         if sys.platform == "darwin":
             return ("-dynamiclib", *library)
         wraps = tuple(f"-Wl,--wrap={name}" for name in self.wrapped)
-        return ("-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", *wraps, *library)
+        return ("-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", *wraps, *library, "-lm")
 
 
 def support() -> Support:

@@ -39,7 +39,7 @@ def run(
 class _Run:
     def __init__(self, driver, settings, history, result, progress) -> None:
         self.driver, self.history, self.result, self.progress = driver, history, result, progress
-        self.bound = Bound(driver, settings.get("precision", "double"))
+        self.bound = Bound(driver, result.interface, result.precision)
         self.dimension = settings["dimension"]
         self.states = settings.get("states", 0)
         reach = float(np.abs(history.slip).max())

@@ -8,6 +8,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from usersub.ports import PORTS
+
 _HALF_EDGE = 0.5
 
 
@@ -114,10 +116,11 @@ def _padded(rows: np.ndarray, count: int) -> np.ndarray:
 
 
 class Bound:
-    """Arrays bound once to a driver and then filled in place."""
+    """Arrays bound once to a driver and then filled in place; those it has not are left out."""
 
-    def __init__(self, driver, precision: str) -> None:
+    def __init__(self, driver, interface: str, precision: str) -> None:
         self._driver = driver
+        self._known = {p.name for p in PORTS if interface in p.drivers}
         self._real = np.float32 if precision == "single" else np.float64
         self._arrays: dict[str, np.ndarray] = {}
 
@@ -126,6 +129,8 @@ class Bound:
         fresh = {}
         for name, value in values.items():
             kept = self._arrays.get(name)
+            if name not in self._known:
+                continue
             if kept is None:
                 kind = np.int32 if value.dtype.kind == "i" else self._real
                 fresh[name] = np.array(value, dtype=kind, order="F")

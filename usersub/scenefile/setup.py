@@ -21,50 +21,46 @@ def routine_of(scene_file: SceneFile) -> Routine:
         SceneError: the file does not say which of several interfaces is meant.
     """
     precision = scene_file.settings.get("precision", "double")
+    interface, path = scene_file.interface, scene_file.path
     if scene_file.law is not None:
-        return _built_in(scene_file)
+        return _built_in(scene_file, precision)
+    if scene_file.language is not None:
+        raise SceneError(
+            f"{path}: language = \"{scene_file.language}\" is for built-in laws; the language of "
+            f"{scene_file.routine} follows from its suffix"
+        )
     import usersub
 
     file = usersub.load(
-        scene_file.routine, precision=precision, generation=scene_file.generation
+        scene_file.routine,
+        precision=precision,
+        generation=scene_file.generation,
+        interface=interface,
     )
-    names = list(file)
-    if scene_file.interface is None:
-        if len(names) == 1:
-            return file.only()
+    if interface is None and len(file) > 1:
         raise SceneError(
-            f"{scene_file.path}: {scene_file.routine} holds {', '.join(names)}; "
-            f"say which with interface = \"{names[0]}\""
+            f"{path}: {scene_file.routine} holds {', '.join(file)}; say which with "
+            f"interface = \"{next(iter(file))}\""
         )
-    if scene_file.interface not in names:
-        raise SceneError(
-            f"{scene_file.path}: interface = \"{scene_file.interface}\", but {scene_file.routine} "
-            f"holds {', '.join(names)}"
-        )
-    return file[scene_file.interface]
+    return file.only()
 
 
-def _built_in(scene_file: SceneFile) -> Routine:
+def _built_in(scene_file: SceneFile, precision: str) -> Routine:
     from usersub import laws
 
-    known = laws.names()
-    if scene_file.law not in known:
-        hint = nearest(scene_file.law, known) or "."
+    if scene_file.law not in laws.LAWS:
+        hint = nearest(scene_file.law, laws.LAWS) or "."
         raise SceneError(
             f"{scene_file.path}: routine = \"{scene_file.law}\" is neither a file nor a built-in "
-            f"law{hint} Built-in laws: {', '.join(known)}"
+            f"law{hint} Built-in laws: {', '.join(laws.LAWS)}"
         )
     if scene_file.interface is None:
         raise SceneError(
             f"{scene_file.path}: the built-in law '{scene_file.law}' needs the key 'interface', "
-            f"one of {', '.join(abi.NAMES)}"
+            f"one of {', '.join(laws.LAWS[scene_file.law].interfaces)}"
         )
-    return laws.routine(
-        scene_file.law,
-        scene_file.interface,
-        scene_file.language or "python",
-        precision=scene_file.settings.get("precision", "double"),
-    )
+    language = scene_file.language or "python"
+    return laws.routine(scene_file.law, scene_file.interface, language, precision=precision)
 
 
 def history_of(scene_file: SceneFile, interface: abi.Interface) -> tuple[dict[str, Any], History]:

@@ -33,7 +33,7 @@ def run(
 class _Run:
     def __init__(self, driver, settings, history, result, progress) -> None:
         self.driver, self.history, self.result, self.progress = driver, history, result, progress
-        self.bound = Bound(driver, settings.get("precision", "double"))
+        self.bound = Bound(driver, result.interface, result.precision)
         self.dimension = settings["dimension"]
         self.states = settings.get("states", 0)
         self.kept: dict[str, list[np.ndarray]] = defaultdict(list)
@@ -109,12 +109,10 @@ class _Run:
         return True
 
     def _put(self, now: Row) -> None:
-        values = {"pressure": now.pressure}
-        if self.result.interface == "fric":
-            coord = np.zeros((self.dimension, self.history.points))
-            width = min(self.history.directions, self.dimension)
-            coord[:width] = now.slip.T[:width]
-            values["coord"] = coord
+        coord = np.zeros((self.dimension, self.history.points))
+        width = min(self.history.directions, self.dimension)
+        coord[:width] = now.slip.T[:width]
+        values = {"pressure": now.pressure, "coord": coord}
         if now.temperature is not None:
             values["temperature_secondary"], values["temperature_main"] = now.temperature
         if now.fields is not None:

@@ -47,7 +47,10 @@ void FOR_NAME(fric_coef, FRIC_COEF)(USUB_FRIC_COEF_2022_PARAMETERS) {
 void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   const int n = *NFDIR;
   const double allowable = 0.005 * *CHRLNGTH, p = *PRESS > 0 ? *PRESS : 0;
-  if (*LM == 2) return; /* open so far: no friction in the increment that closes the point */
+  if (*LM == 2) { /* open so far: no friction in the increment that closes the point */
+    for (int a = 0; a < n && a < *NSTATV; ++a) STATEV[a] = 0;
+    return;
+  }
   if (!USUB_STANDARD_PROPS("FRIC", PROPS, *NPROPS) ||
       !USUB_STANDARD_NEEDS(*NSTATV >= n, USUB_STATES_TEXT, n, *NSTATV) ||
       !USUB_STANDARD_NEEDS(allowable > 0, USUB_LENGTH_TEXT, 0, 0))

@@ -3,8 +3,12 @@
 #include "axes.h"
 
 #define EXPORT(real, suffix)                                                                       \
-  real norm2_##suffix(real x, real y) { return usub_norm2_##suffix(x, y); }                        \
-  real norm3_##suffix(real x, real y, real z) { return usub_norm3_##suffix(x, y, z); }             \
+  real norm2_##suffix(real x, real y) {                                                            \
+    return usub_norm2_##suffix(x, y);                                                              \
+  }                                                                                                \
+  real norm3_##suffix(real x, real y, real z) {                                                    \
+    return usub_norm3_##suffix(x, y, z);                                                           \
+  }                                                                                                \
   real tangential2_##suffix(const real *slip, const real *n, real *v) {                            \
     return usub_tangential2_##suffix(slip, n, v);                                                  \
   }                                                                                                \
@@ -26,4 +30,6 @@
 EXPORT(double, d)
 EXPORT(float, f)
 
-double product_quotient(double a, double b, double c) { return usub_product_quotient(a, b, c); }
+double product_quotient(double a, double b, double c) {
+  return usub_product_quotient(a, b, c);
+}

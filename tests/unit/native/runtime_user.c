@@ -62,7 +62,7 @@ void lock_wrong_number(void) {
 }
 
 void divide(void) {
-  zero = 1 / zero;
+  zero = 17 / zero;
 }
 void read_zero(void) {
   zero = *nowhere;

@@ -11,6 +11,7 @@ extern "C" {
 #endif
 
 int *SMAIntArrayCreate(int id, int length, int value);
+double *SMAFloatArrayCreate(int id, int length, double value);
 float *SMAFloatArrayCreateSP(int id, int length, float value);
 double *SMAFloatArrayCreateDP(int id, int length, double value);
 void *SMAStructArrayCreate(int id, int items, size_t bytes, const void *value);
@@ -24,6 +25,7 @@ void *SMAStructArrayAccess(int id);
 size_t SMAStructArraySize(int id);
 void SMAStructArrayDelete(int id);
 int *SMALocalIntArrayCreate(int id, int length, int value);
+double *SMALocalFloatArrayCreate(int id, int length, double value);
 float *SMALocalFloatArrayCreateSP(int id, int length, float value);
 double *SMALocalFloatArrayCreateDP(int id, int length, double value);
 void *SMALocalStructArrayCreate(int id, int items, size_t bytes, const void *value);

@@ -1,0 +1,6 @@
+C     SPDX-License-Identifier: MIT
+      SUBROUTINE FRIC(LM,TAU)
+      IMPLICIT NONE
+      INTEGER LM
+      TAU = LM*UNKNOWN
+      END
