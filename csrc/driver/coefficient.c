@@ -101,29 +101,6 @@ static void fill_2022(usub_driver *driver, usub_call *call, int32_t first) {
   }
 }
 
-/* Refuses NaN and infinity in what the routine reads. */
-static int32_t check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first) {
-  const struct {
-    const char *name;
-    const void *data;
-    int32_t per_point;
-  } inputs[] = {{"slip_rate", driver->memory.slip_rate, 1},
-                {"slip_data", driver->memory.slip_data, SLIP_COLUMNS},
-                {"pressure", driver->memory.pressure, 1},
-                {"temperature", driver->memory.temperature, 1}};
-  for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
-    if (!inputs[i].data) continue;
-    const size_t per_point = (size_t)inputs[i].per_point;
-    const char *data = (const char *)inputs[i].data + (size_t)first * per_point * driver->size.real;
-    const ptrdiff_t bad = usub_first_bad(data, (size_t)call->n * per_point, driver->single);
-    if (bad < 0) continue;
-    const int32_t point = first + (int32_t)((size_t)bad / per_point);
-    return usub_block_fail(driver, call, index, point, USUB_BAD_INPUT,
-                           "%s: %s of point %d is not finite", driver->title, inputs[i].name, point);
-  }
-  return USUB_OK;
-}
-
 static double real_at(const void *data, size_t i, int32_t single) {
   return single ? (double)((const float *)data)[i] : ((const double *)data)[i];
 }
@@ -166,14 +143,14 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
   const int modern = is_2022(driver);
   usub_aim(driver, call, first, rest < driver->block ? rest : driver->block);
   const size_t n = (size_t)call->n;
-  /* A routine without memory of its own may see bad input, since its answer is thrown away: looking
-   * at the input after the call finds it in the nearest cache. */
-  const int look_later = driver->routine.thread_safe;
-  int32_t status = look_later ? USUB_OK : check_inputs(driver, call, index, first);
-  if (status) return status;
   if (modern) fill_2022(driver, call, first);
   if (usub_is_live(driver, FIELD))
     transpose(driver->memory.field, call->argv[FIELD], first, call->n, driver->size.P, real);
+  /* A routine without memory of its own may see bad input, since its answer is thrown away: looking
+   * at the input after the call finds it in the nearest cache. */
+  const int look_later = driver->routine.thread_safe;
+  int32_t status = look_later ? USUB_OK : usub_check_inputs(driver, call, index, first);
+  if (status) return status;
   memset(call->argv[COEF], 0, n * real);
   if (modern) /* NaN tells whether an isotropic routine left the second coefficient alone */
     for (size_t k = 0; k < n; ++k) ((double *)call->argv[COEF])[n + k] = NAN;
@@ -181,7 +158,7 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
     memset(call->argv[DERIV], 0, n * real * (modern ? 2 * SLOTS_2022 : 3));
   char reason[256] = "";
   status = usub_call_guarded(driver, call, reason);
-  const int32_t seen = look_later ? check_inputs(driver, call, index, first) : USUB_OK;
+  const int32_t seen = look_later ? usub_check_inputs(driver, call, index, first) : USUB_OK;
   if (seen) return seen;
   if (status < 0)
     return usub_block_fail(driver, call, index, call->n == 1 ? first : -1, status,

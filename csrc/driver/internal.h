@@ -167,6 +167,7 @@ struct usub_driver {
   usub_memory memory; /* of the slots; valid once prepared */
   usub_source sources[USUB_MAX_ARGS];
   int32_t moving[USUB_MAX_ARGS], moving_count; /* arguments that are slices */
+  int32_t looked_at[USUB_MAX_ARGS], looked_at_count; /* inputs that are checked for NaN */
   usub_call *calls; /* one a worker */
   usub_pool *pool;
   usub_clock clock;
@@ -180,7 +181,9 @@ struct usub_driver {
   size_t nothing_size;
   char missing[256]; /* what the plan lacks */
   /* standard */
-  int32_t increment_open, iterated;
+  int32_t increment_open;
+  int32_t iterated; /* an iteration of this increment has succeeded: last_* are valid */
+  int32_t complete; /* and no later one has failed: the outputs belong together */
   int32_t *last_lm;
   unsigned char *last_closed, *closed_now;
   double *last_dslip;
@@ -246,6 +249,12 @@ int32_t usub_prepare(usub_driver *driver);
 void usub_calls_free(usub_driver *driver);
 /** Sets the slices of a block of `n` points from `first`. */
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n);
+
+/* inputs.c */
+/** Lists the inputs of the routine that are made of host data with a point index. */
+void usub_list_inputs(usub_driver *driver);
+/** Refuses NaN and infinity in them, in the block that `call` aims at. */
+int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first);
 
 /* run.c */
 /** Calls the routine with the arguments of `call`; the caller holds the guard. */

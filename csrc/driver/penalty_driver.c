@@ -173,8 +173,10 @@ int32_t usub_penalty_point(usub_driver *driver, usub_call *call, const usub_poin
   usub_penalty_output out;
   fill_point(driver, call, at, p);
   at->lm[p] = 0;
+  int32_t status = usub_check_inputs(driver, call, index, p);
+  if (status) return status;
   const int want = set->tangent || set->temperature_tangent;
-  const int32_t status = usub_penalty_update(&input, ask, &q, want, &out);
+  status = usub_penalty_update(&input, ask, &q, want, &out);
   if (status < 0) {
     if (call->status && call->failed_point == p) return status; /* `ask` has said why */
     char what[96];

@@ -175,6 +175,7 @@ static void aim_fixed(usub_driver *driver) {
         call->argv[i] = source->slot ? source->slot->data : (void *)(uintptr_t)source->data;
     }
   }
+  usub_list_inputs(driver);
   driver->aimed = 1;
 }
 

@@ -305,6 +305,8 @@ static int32_t run_point(usub_driver *driver, usub_call *call, const usub_point_
   }
   if (!is_fric(driver)) return usub_penalty_point(driver, call, at, index, p);
   fill_point(driver, call, at, p);
+  status = usub_check_inputs(driver, call, index, p);
+  if (status) return status;
   status = usub_call_routine(driver, call);
   if (status < 0)
     return usub_block_fail(driver, call, index, p, status, "FRIC: the routine ended with %s at point %d",
@@ -351,7 +353,7 @@ int32_t usub_begin_increment(usub_driver *driver) {
     return usub_fail(driver, USUB_WRONG_ORDER,
                      "%s: usub_set_time has to come before usub_begin_increment", driver->title);
   driver->increment_open = 1;
-  driver->iterated = 0;
+  driver->iterated = driver->complete = 0;
   driver->clock.iteration = 0;
   driver->pnewdt = USUB_PNEWDT_PRESET;
   return USUB_OK;
@@ -363,6 +365,7 @@ int32_t usub_iterate(usub_driver *driver) {
   if (!status) status = usub_prepare(driver);
   if (status) return status;
   for (int32_t w = 0; w < driver->threads; ++w) driver->calls[w].pnewdt = USUB_PNEWDT_PRESET;
+  driver->complete = 0;
   driver->clock.iteration += 1;
   status = usub_run_blocks(driver, usub_standard_block);
   if (status < 0) {
@@ -373,7 +376,7 @@ int32_t usub_iterate(usub_driver *driver) {
   memcpy(driver->last_lm, driver->memory.lm, n * sizeof *driver->last_lm);
   memcpy(driver->last_closed, driver->closed_now, n);
   memcpy(driver->last_dslip, driver->memory.dslip, n * (size_t)driver->size.F * sizeof(double));
-  driver->iterated = 1;
+  driver->iterated = driver->complete = 1;
   driver->pnewdt = USUB_PNEWDT_PRESET;
   for (int32_t w = 0; w < driver->threads; ++w)
     if (driver->calls[w].pnewdt < driver->pnewdt) driver->pnewdt = driver->calls[w].pnewdt;
@@ -390,8 +393,10 @@ int32_t usub_commit(usub_driver *driver) {
   if (!driver) return USUB_BAD_ARGUMENT;
   int32_t status = check_order(driver, "usub_commit", 1);
   if (status) return status;
-  if (!driver->iterated)
-    return usub_fail(driver, USUB_WRONG_ORDER, "%s: usub_commit needs a successful usub_iterate before it",
+  if (!driver->complete)
+    return usub_fail(driver, USUB_WRONG_ORDER,
+                     "%s: usub_commit needs a usub_iterate before it, and the last one failed or never "
+                     "was",
                      driver->title);
   const usub_point_arrays at = usub_point_arrays_of(driver);
   const size_t n = (size_t)driver->points, F = (size_t)driver->size.F, S = (size_t)driver->size.S;

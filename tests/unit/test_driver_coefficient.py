@@ -45,7 +45,8 @@ def test_closed_form(c_routine):
     arrays = inputs()
     found = driver(c_routine).evaluate(**arrays)
     # one rounding each of exp, two products and two sums
-    np.testing.assert_allclose(found, decay(**{"rate": arrays["slip_rate"], "pressure": arrays["pressure"]}), rtol=4e-16)
+    expected = decay(arrays["slip_rate"], arrays["pressure"])
+    np.testing.assert_allclose(found, expected, rtol=4e-16)
 
 
 def test_single_precision(c_routine):
@@ -141,9 +142,14 @@ def test_values_that_are_not_finite(c_routine, name, value):
     assert caught.value.status == -3
 
 
-def test_missing_array(c_routine):
+def test_missing_array():
+    @usersub.vfric_coef(compiled=False)
+    def law(fCoef, slipRate):
+        fCoef[:] = slipRate
+
+    made = usersub.CoefficientDriver(law, usersub.Scene(points=POINTS))
     with pytest.raises(SceneError, match="'slip_rate' is not bound"):
-        driver(c_routine).evaluate(pressure=inputs()["pressure"])
+        made.evaluate(pressure=inputs()["pressure"])
 
 
 def test_refused_binding_changes_nothing(c_routine):

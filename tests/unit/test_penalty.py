@@ -506,6 +506,8 @@ def adversary(kind: str, seed: int):
             return (0.6, 0.1) if data[0] < 0.3 + seed / 20 else (0.1, 0.6)
         if kind == "zero and not":
             return (0.0, 0.5) if data[0] < 0.3 + seed / 20 else (0.5, 0.0)
+        if kind == "zones":
+            return (0.0, 0.5) if 0.2 + seed / 20 < data[0] < 1.0 else (0.5, 0.0)
         if kind == "steep":
             return 0.5 * math.exp(-min(1e9 * data[0], 700.0)), 0.3
         return 0.4 + 0.4 * math.sin(1e6 * data[0] * (1 + seed)), 0.3
@@ -513,7 +515,7 @@ def adversary(kind: str, seed: int):
     return mu
 
 
-@pytest.mark.parametrize("kind", ["noise", "jump", "zero and not", "steep", "chaos"])
+@pytest.mark.parametrize("kind", ["noise", "jump", "zero and not", "zones", "steep", "chaos"])
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e12, 1e290])
 def test_always_ends_inside_the_ellipse(enforcement, kind, seed, size):
@@ -540,6 +542,46 @@ def test_always_ends_inside_the_ellipse(enforcement, kind, seed, size):
     )
     assert radius <= 1 + 1e-14
     assert output.sfd >= 0
+
+
+@pytest.mark.parametrize("size", [1e1, 1e100, 1e290])
+def test_jump_in_a_wide_bracket(enforcement, size):
+    """The coefficient drops so far at a slip that there is neither stick nor slip: to the place."""
+    place, calls = 0.3 * size, []
+
+    def friction(_context, data, value):
+        calls.append(data[0])
+        value[0].mu[:] = (0.6, 0.1) if data[0] < place else (0.1 / size, 0.5)
+        for k in range(2):
+            value[0].d_mu[k][:] = [0.0] * 8
+        return 0
+
+    case = replace(
+        BASE, anisotropic=True, elastic_slip=(0.0, 0.0), slip_increment=(size, 0.0),
+        time_increment=1.0,
+    )  # fmt: skip
+    status, output = update(enforcement, case, friction=friction)
+    assert status == CODE["OK"] and len(calls) < 240
+    assert output.equivalent == pytest.approx(place, rel=1e-13)
+    assert calls[-1] == output.equivalent
+
+
+def test_zero_only_while_it_sticks(enforcement):
+    """A direction that is frictionless at rest but not in motion keeps its elastic slip."""
+    calls = []
+
+    def friction(_context, data, value):
+        calls.append(list(data[:6]))
+        value[0].mu[:] = (0.0 if data[1] == 0 else 0.4, 0.3)
+        for k in range(2):
+            value[0].d_mu[k][:] = [0.0] * 8
+        return 0
+
+    case = replace(BASE, anisotropic=True, elastic_slip=(0.0, 0.0), slip_increment=(0.5, 0.1))
+    status, output = update(enforcement, case, friction=friction)
+    assert status == CODE["OK"] and output.sticks == 1
+    assert list(output.elastic_slip) == [0.5, 0.1] and output.tau[0] == 0
+    assert calls[-1][0] == 0 and list(output.mu) == [0.0, 0.3]
 
 
 def test_steep_law_is_solved_to_rounding(enforcement):

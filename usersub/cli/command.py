@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 import click
 
-from usersub.errors import Error
+from usersub.errors import Error, RoutineError
 
 #: Exit codes: all is well; it is not; the command was mistyped.
 OK, FAILED, USAGE = 0, 1, 2
@@ -113,4 +113,8 @@ def _sentence(error: Exception) -> str:
     if isinstance(error, OSError) and not isinstance(error, Error):
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror or error}"
-    return str(error) or type(error).__name__
+    text = str(error) or type(error).__name__
+    cause = error.__cause__
+    if isinstance(error, RoutineError) and cause is not None and str(cause) not in text:
+        text += f": {type(cause).__name__}: {cause}"
+    return " ".join(text.split("\n"))

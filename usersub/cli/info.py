@@ -67,7 +67,6 @@ def command(routine: Path, interface: str | None, precision: str, as_json: bool)
 def _plan(routine: Any, precision: str) -> Any:
     """The plan of a driver in the default scene, or why there is none."""
     import usersub
-
     from usersub.scenefile.sample import bind_sample
 
     interface = routine.interface.name

@@ -95,7 +95,7 @@ def print_facts(facts: Iterable[tuple[str, Any]]) -> None:
 
 def number(value: float, digits: int = 6) -> str:
     """A number for people."""
-    return f"{value:.{digits}g}"
+    return f"{value + 0.0:.{digits}g}"  # adding zero makes -0 a plain 0
 
 
 @contextmanager

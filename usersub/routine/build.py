@@ -13,7 +13,8 @@ from usersub.errors import CompileError, LoadError
 from usersub.routine import cache, compilers, debuginfo, objects
 from usersub.routine.support import Support
 
-_RECORD = 1
+#: Version of what is stored of a build; part of every key.
+RECORD = "3"
 _UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
 
 
@@ -79,7 +80,7 @@ def recall(library: Path, source: Path) -> Build | None:
         stored = json.loads(record.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    if stored.pop("record", None) != _RECORD or not library.is_file():
+    if stored.pop("record", None) != RECORD or not library.is_file():
         return None
     signatures = {
         symbol: debuginfo.Signature(
@@ -103,7 +104,7 @@ def remember(build: Build) -> None:
     """Writes what is known of a build beside its library."""
     stored = asdict(build)
     del stored["library"], stored["source"]
-    stored["record"] = _RECORD
+    stored["record"] = RECORD
     cache.put_text(json.dumps(stored), build.library.with_suffix(".json"))
 
 

@@ -42,20 +42,25 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
     command = [*compiler.command, *chosen, *(f"-I{p}" for p in folders)]
     with cache.build_folder() as folder:
         # The preprocessed text covers every include file; names in it are relative to the source.
-        plain = folder / "plain.i"
+        # It is compiled itself, because arguments that come out of one macro share a place.
+        plain = folder / ("plain.i" if language == "c" else "plain.ii")
         outcome = compilers.run([*command, "-E", source.name, "-o", str(plain)], source.parent)
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
         parts = (compiler.version, *chosen, *base.link_flags, source.name)
-        target = cache.path(source.stem, cache.key(language, *parts, plain.read_bytes()), ".so")
+        target = cache.path(source.stem, cache.key(language, build.RECORD, *parts, plain.read_bytes()), ".so")
         known = build.recall(target, source)
         if known is not None:
             return known
         part = folder / "main.o"
         outcome = compilers.run(
-            [*command, *_WARNINGS, "-c", source.name, "-o", str(part)], source.parent
+            [*command, *_WARNINGS, "-c", str(plain), "-o", str(part)], source.parent
         )
         if outcome.code:
+            # Once more from the source, for columns that the user finds there.
+            outcome = compilers.run(
+                [*command, *_WARNINGS, "-fsyntax-only", source.name], source.parent
+            )
             raise compilers.refusal(compiler, source, outcome)
         result = _finish(compiler, source, precision, chosen, part, outcome.text, base, target)
         build.remember(result)

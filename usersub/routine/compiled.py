@@ -24,7 +24,11 @@ from usersub.routine.routine import BLOCK, FULL, Entry
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _PLACE = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _NOISE = ("Failed in ", "During:", "<source ", "Enable ", "For more ")
-_OPTIONS = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_OPTIONS: dict[str, Any] = {
+    "error_model": "numpy",
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
 
 #: Longest quotation of numba's words in a message.
 _WORDS = 600
@@ -76,9 +80,11 @@ def _code_class() -> type:
     numba names functions by module, name and a number that starts anew in each process; two
     cached closures of one name would otherwise share what the linker sees first.
     """
-    from numba.core.ccallback import CFunc
+    from numba.core import ccallback
 
-    class PrivateCode(CFunc):
+    base: Any = ccallback.CFunc
+
+    class PrivateCode(base):
         def _compile_uncached(self) -> Any:
             result = super()._compile_uncached()
             entries = {result.fndesc.llvm_func_name, result.fndesc.llvm_cfunc_wrapper_name}
@@ -199,7 +205,8 @@ def _law_types(declaration: Declaration, precision: str) -> tuple:
             return real if arg.kind == "real" else types.int64
         dtype, rank = (real if arg.kind == "real" else types.int32), len(arg.shape) or 1
         layout = "F" if rank > 1 else "C"
-        return types.Array(dtype, rank, layout, readonly=arg.intent == "read")
+        array: Any = types.Array
+        return array(dtype, rank, layout, readonly=arg.intent == "read")
 
     return tuple(type_of(declaration.interface.args[i]) for i in declaration.positions)
 

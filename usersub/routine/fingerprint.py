@@ -3,7 +3,8 @@
 
 numba's own cache looks at the source file of a function, but not at the functions and constants
 of other files that it uses. Here the function's code is followed into every global and closure
-value; where one of them cannot be told by value, the function is not cached.
+value; where one of them cannot be told by value, the function is not cached. Of a function that
+numba knows by `overload` the Python function is followed, as `register_jitable` compiles it.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
+from typing import Any
 
 #: Modules whose contents are fixed by their version.
 _FIXED_MODULES = ("math", "cmath", "numpy", "numba", "operator")
@@ -32,15 +34,15 @@ def fingerprint(law: Callable) -> str | None:
     return digest.hexdigest()
 
 
-def _value(value: object, add: Callable, seen: set[int]) -> None:
+def _value(value: Any, add: Callable, seen: set[int]) -> None:
     """Adds one value; a function that was met before is only named, which ends recursion."""
     kind = type(value)
     if kind in _PLAIN:
         add(f"{kind.__name__} {value!r};".encode())
     elif kind in (tuple, frozenset):
-        items = value if kind is tuple else sorted(value, key=repr)  # type: ignore[call-overload]
-        add(f"{kind.__name__} {len(items)};".encode())  # type: ignore[arg-type]
-        for item in items:  # type: ignore[attr-defined]
+        items = value if kind is tuple else sorted(value, key=repr)
+        add(f"{kind.__name__} {len(items)};".encode())
+        for item in items:
             _value(item, add, seen)
     elif isinstance(value, CodeType):
         _code(value, add, seen)
@@ -56,7 +58,7 @@ def _value(value: object, add: Callable, seen: set[int]) -> None:
         _library_value(value, add)
 
 
-def _library_value(value: object, add: Callable) -> None:
+def _library_value(value: Any, add: Callable) -> None:
     """Adds a value of numpy, numba or a fixed module."""
     if isinstance(value, ModuleType):
         _fixed(value.__name__)
@@ -94,6 +96,7 @@ def _function(function: FunctionType, add: Callable, seen: set[int]) -> None:
     seen.add(id(function))
     _code(function.__code__, add, seen)
     _value(function.__defaults__ or (), add, seen)
+    _value(tuple(sorted((function.__kwdefaults__ or {}).items())), add, seen)
     for cell in function.__closure__ or ():
         _value(cell.cell_contents, add, seen)
     for name in sorted(_names(function.__code__)):

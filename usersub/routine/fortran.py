@@ -40,6 +40,7 @@ def compile_file(source: Path, precision: str) -> Build:
     chosen = flags(prepared.free, precision)
     digest = cache.key(
         "fortran",
+        build.RECORD,
         compiler.version,
         *chosen,
         *base.link_flags,

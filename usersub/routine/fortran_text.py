@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 _DIRECTIVE = re.compile(r"^(?:[cC*!]|\s*!)(?:dec|dir)\$\s*(no)?(freeform|fixedform)\b", re.I)
 _SENTINEL = re.compile(r"^(?:[cC*!]|\s*!)(?:\$|gcc\$)", re.I)
+_DEBUG = re.compile(r"^[dD](?:[ \d]*\t|[ \d]{5})")
 _MARKER = re.compile(r'^#\s*(?:line\s+)?(\d+)\s+"([^"]*)"')
 _INCLUDE = re.compile(r"""^\s*(#\s*)?include\s*(['"<])\s*([^'">]+?)\s*['">]\s*$""", re.I)
 
@@ -60,7 +61,7 @@ def is_comment(line: str, free: bool) -> bool:
         # A mark in column 6 of fixed form continues the line before.
         return free or line.index("!") != 5
     # `D` in column 1 marks lines for debugging only.
-    return not free and (line[:1] in ("c", "C", "*") or bool(re.match(r"^[dD][\s\d]{5}", line)))
+    return not free and (line[:1] in ("c", "C", "*") or bool(_DEBUG.match(line)))
 
 
 def statements(text: str, free: bool, file: str) -> Iterator[Statement]:

@@ -114,7 +114,7 @@ def info(thing: Routine | RoutineFile | str | os.PathLike[str], precision: str =
         return Info(str(file.path), file.language, "", "", (), "", routines, (), (), (), (), False)
     build = file.code.build(file.precision)
     plain = {f: f.removesuffix("_") for f in build.functions}
-    others = sorted(n for n in plain.values() if n not in abi.NAMES and not n.startswith("usub_"))
+    others = sorted(n for n in plain.values() if n not in abi.NAMES)
     return Info(
         path=str(file.path),
         language=file.language,
@@ -124,11 +124,17 @@ def info(thing: Routine | RoutineFile | str | os.PathLike[str], precision: str =
         library=str(build.library),
         routines=tuple(_routine(r, build) for r in file.values()),
         entries=tuple(n.upper() for n in others if n.lower() in _ENTRIES),
-        functions=tuple(n.upper() for n in others if n.lower() not in _ENTRIES),
+        functions=tuple(_readable(n) for n in others if n.lower() not in _ENTRIES),
         shared_state=build.shared,
         absent=tuple(n.removesuffix("_").upper() for n in build.absent),
         writes_units=build.writes_units,
     )
+
+
+def _readable(name: str) -> str:
+    """`__law_MOD_mu` -> LAW::MU."""
+    module, mark, function = name.removeprefix("__").partition("_MOD_")
+    return f"{module}::{function}".upper() if mark else name.upper()
 
 
 def _routine(routine: Routine, build: Build | None) -> RoutineInfo:

@@ -218,9 +218,8 @@ def load(
     build = code.build(precision)
     if not build.interfaces:
         raise LoadError(_nothing(build))
-    routines = {name: None for name in build.interfaces}
-    names = _chosen(file, routines, interface)
-    made = {name: _routine(code, build, name, generation) for name in names}
+    names = _chosen(file, dict.fromkeys(build.interfaces), interface)
+    made = {name: _routine(code, name, generation) for name in names}
     return RoutineFile(file, language, precision, made, code)
 
 
@@ -274,8 +273,12 @@ def _nearly(symbol: str) -> str:
     return ""
 
 
-def _routine(code: Code, build: Build, name: str, generation: str | None) -> Routine:
+def _routine(code: Code, name: str, generation: str | None) -> Routine:
     symbol = name + "_"
+    # FRIC and FRIC_COEF exist in double precision only, whatever the file was asked for in.
+    compiled = code.language != "library"
+    double = compiled and code.precision not in abi.interface(name).precisions
+    build = code.build("double" if double else code.precision)
     found = build.signatures.get(symbol)
     face = abi.interface(name, _generation(build, name, generation))
     code.check(face, build.precision)

@@ -21,6 +21,8 @@ _LIST = re.compile(rf"(?:^|/)({'|'.join(abi.NAMES)})(?:_2022)?_names\.fi$")
 _PARAMETER = re.compile(
     r"^([^\s:][^:]*):(\d+):(\d+): warning: unused parameter '(\w+)'", re.MULTILINE
 )
+# GCC: where the macro stands that the parameter of the warning before comes from.
+_EXPANSION = re.compile(r"^[^\s:][^:]*:(\d+):(\d+): note: in expansion of macro '")
 _DOES = {"read": READS, "write": WRITES, "readwrite": READS_AND_WRITES}
 
 
@@ -52,9 +54,13 @@ def unused_in_fortran(
 
 def unused_in_c(text: str, found: dict[str, Signature]) -> dict[str, tuple[int, ...]]:
     """Unused positions by symbol, from the text of `cc -Wunused-parameter`."""
-    warned = {
-        (int(line), int(column), name) for _, line, column, name in _PARAMETER.findall(text)
-    }
+    warned: list[tuple[int, int, str]] = []
+    for line in text.splitlines():
+        if parameter := _PARAMETER.match(line):
+            warned.append((int(parameter[2]), int(parameter[3]), parameter[4]))
+        elif warned and (macro := _EXPANSION.match(line)):
+            # Debug information has the place where the macro is used.
+            warned[-1] = (int(macro[1]), int(macro[2]), warned[-1][2])
     return {
         symbol: tuple(
             i

@@ -30,7 +30,7 @@ def readonly(typing_context, array):
     return array.copy(readonly=True)(array), code
 
 
-@njit(no_cpython_wrapper=True)
+@njit
 def text_at(pointer, length):
     """The text at `pointer` without trailing blanks; a length above that of names is taken as it,
     since callers in C may leave hidden lengths out."""

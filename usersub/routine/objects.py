@@ -15,7 +15,7 @@ _UNIT_CALLS = ("_gfortran_st_write", "_gfortran_st_read", "_gfortran_st_open")
 
 # Data that every library has, or that C++ headers add: no state of the routine.
 _HARMLESS = re.compile(
-    r"^(DW\.ref\..*|_ZStL8__ioinit|_ZT[VISC].*|_ZGVZNSt.*|completed\.\d+|__dso_handle|__TMC_END__"
+    r"^(DW\.ref\..*|_ZStL8__ioinit|_ZT[VISC].*|_ZGV.*|completed\.\d+|__dso_handle|__TMC_END__"
     r"|_DYNAMIC|_GLOBAL_OFFSET_TABLE_|__bss_start|_edata|_end|__frame_dummy_init_array_entry"
     r"|__do_global_dtors_aux_fini_array_entry|options\.\d+)$"
 )
@@ -114,8 +114,16 @@ def _people(name: str, common: bool) -> str:
         return "blank COMMON"
     if common or name.endswith("_"):
         return f"COMMON /{name.rstrip('_').upper()}/"
-    local = re.match(r"^(?:_ZZ.*?E)?(\w+?)\.\d+$", name)
-    return f"variable {local[1] if local else name}"
+    return f"variable {_last_name(name) if name.startswith('_Z') else name.split('.')[0]}"
+
+
+def _last_name(mangled: str) -> str:
+    """Innermost name of a mangled C++ name (`_ZN3law5countE` -> count)."""
+    name, at = mangled, 2
+    while found := re.compile(r"\d+").search(mangled, at):
+        at = found.end() + int(found[0])
+        name = mangled[found.end() : at] or name
+    return name
 
 
 def _stripped_data(elf) -> set[str]:

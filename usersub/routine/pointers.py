@@ -153,10 +153,10 @@ def _spelled(function: _Function) -> str:
 
 def _understood(pointer: Any) -> _Function:
     """Address and types of any supported pointer."""
-    kind = type(pointer)
+    kind: Any = type(pointer)
     if kind is int:
         return _Function(pointer, None, "", f"the address {pointer:#x}")
-    if kind.__name__ == "LowLevelCallable" and isinstance(pointer, tuple):
+    if kind.__name__ == "LowLevelCallable" and hasattr(pointer, "user_data"):
         if pointer.user_data is not None:
             raise AbiError("a LowLevelCallable with user data has no place to pass them; bind none")
         return _understood(pointer.function)

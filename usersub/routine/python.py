@@ -14,7 +14,8 @@ read refuse to be written to. Scalars that are only read are scalars; scalars th
 SED, SFD, PNEWDT) are arrays of one element: `LM[0] = 0`. Names are texts without trailing blanks.
 numba compiles the function when a driver first asks for it (`error_model="numpy"`: a division by
 zero gives infinity or NaN). With `compiled=False`, or USERSUB_DEBUG=1 in the environment, the
-interpreter runs it, so that a debugger can step into it.
+interpreter runs it, so that a debugger can step into it (in single precision numpy then keeps
+`0.0 + x` single, where compiled code goes on in double).
 """
 
 from __future__ import annotations

@@ -5,13 +5,15 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from usersub.errors import MissingTool, SceneError
-from usersub.scenefile.results import HistoryResult
+from usersub.scenefile.results import Columns, HistoryResult
 
 _LINES = 8
+_UNITS = "units as given by the user's unit system"
 
 
 def require() -> None:
@@ -23,12 +25,27 @@ def require() -> None:
         )
 
 
-def draw(history: HistoryResult, path: Path) -> None:
-    """Draws the friction stress of up to eight points and directions into a PNG or SVG file."""
+def draw(history: HistoryResult | Columns, path: Path) -> None:
+    """Draws a history into a PNG or SVG file.
+
+    Of contact points: the friction stress of up to eight points and directions against slip and
+    time. Of a problem: every column against the first.
+    """
     from matplotlib.figure import Figure
 
-    columns = history.columns
     figure = Figure(figsize=(9.0, 4.0), layout="constrained")
+    if isinstance(history, Columns):
+        _draw_columns(figure, history)
+    else:
+        _draw_points(figure, history)
+    try:
+        figure.savefig(path, dpi=150)
+    except OSError as error:
+        raise SceneError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _draw_points(figure: Any, history: HistoryResult) -> None:
+    columns = history.columns
     against_slip, against_time = figure.subplots(1, 2)
     directions = columns["tau"].shape[2]
     lines = [(p, d) for p in range(history.points) for d in range(directions)]
@@ -37,19 +54,23 @@ def draw(history: HistoryResult, path: Path) -> None:
         tau = columns["tau"][:, point, direction]
         against_slip.plot(columns["slip"][:, point, direction], tau, label=label)
         against_time.plot(columns["time"], tau, label=label)
-    against_slip.set_xlabel("slip (length, in the unit system of the scene)")
-    against_time.set_xlabel("time (in the unit system of the scene)")
+    against_slip.set_xlabel(f"slip (length, {_UNITS})")
+    against_time.set_xlabel(f"time ({_UNITS})")
     for axes in (against_slip, against_time):
-        axes.set_ylabel("friction stress (in the unit system of the scene)")
+        axes.set_ylabel(f"friction stress ({_UNITS})")
         axes.grid(alpha=0.3)
     if len(lines) > 1:
         against_time.legend(fontsize="small")
     figure.suptitle(
         f"{history.routine}: {history.interface.upper()}, {history.language}, {history.precision}"
     )
-    if not np.all(np.isfinite(columns["tau"])):
-        history.notes.append("the figure leaves out values that are not finite")
-    try:
-        figure.savefig(path, dpi=150)
-    except OSError as error:
-        raise SceneError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _draw_columns(figure: Any, history: Columns) -> None:
+    first, *others = history.columns
+    for axes, name in zip(np.ravel(figure.subplots(1, len(others))), others, strict=True):
+        axes.plot(history.columns[first], history.columns[name])
+        axes.set_xlabel(f"{first} ({_UNITS})")
+        axes.set_ylabel(f"{name.replace('_', ' ')} ({_UNITS})")
+        axes.grid(alpha=0.3)
+    figure.suptitle(history.title)

@@ -13,14 +13,6 @@ import numpy as np
 
 from usersub.errors import SceneError
 
-#: Physical dimension of every result column.
-UNITS = {
-    "increment": "-", "time": "time", "slip": "length", "pressure": "stress", "tau": "stress",
-    "force": "force", "normal_force": "force", "coefficient": "-", "mobilised": "-",
-    "lm": "-", "dslip": "length", "sed": "energy/area", "sfd": "energy/area", "state": "any",
-    "dissipation": "energy", "stick_force": "force",
-}
-
 
 @dataclass
 class HistoryResult:
@@ -90,16 +82,25 @@ class HistoryResult:
             np.savez(stream, **self.columns)
 
 
-def write_columns(columns: dict[str, np.ndarray], path: Path) -> None:
-    """Writes equally long one-dimensional columns as CSV or NPZ, by the suffix of `path`."""
-    if path.suffix.lower() == ".npz":
+@dataclass
+class Columns:
+    """Equally long one-dimensional columns, the first of which is the time: a problem's history."""
+
+    title: str
+    columns: dict[str, np.ndarray]
+
+    def write_csv(self, path: Path) -> None:
+        """Writes one line for each time."""
+        with _open(path, "w") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(self.columns)
+            columns = (np.asarray(c).tolist() for c in self.columns.values())
+            writer.writerows(zip(*columns, strict=True))
+
+    def write_npz(self, path: Path) -> None:
+        """Writes the columns as they are."""
         with _open(path, "wb") as stream:
-            np.savez(stream, **columns)
-        return
-    with _open(path, "w") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+            np.savez(stream, **self.columns)
 
 
 def _open(path: Path, mode: str):

@@ -54,8 +54,9 @@ def run_scene(path: str | Path, *, progress: Progress | None = None) -> Run:
         figure.require()
     tell = progress or (lambda done, total: None)
     if scene_file.problem is not None:
-        return _run_problem(scene_file)
-    run = _run_history(scene_file, tell)
+        run = _run_problem(scene_file)
+    else:
+        run = _run_history(scene_file, tell)
     _write(run)
     return run
 
@@ -71,7 +72,7 @@ def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
     except errors.SceneError as error:
         raise errors.SceneError(f"{scene_file.path}: {error}") from error
     result = results.HistoryResult(
-        routine=routine.name,
+        routine=scene_file.law or routine.name,
         interface=routine.interface.name,
         language=routine.language,
         precision=settings.get("precision", "double"),
@@ -108,13 +109,27 @@ def _run_problem(scene_file: SceneFile) -> Run:
 
 
 def _write(run: Run) -> None:
+    """Writes the files of [output]; of a problem, the first of its results that has a history."""
     output = run.scene_file.output
+    if not output.files:
+        return
+    history = run.history or _problem_history(run)
     if output.csv is not None:
-        run.history.write_csv(output.csv)
+        history.write_csv(output.csv)
     if output.npz is not None:
-        run.history.write_npz(output.npz)
+        history.write_npz(output.npz)
     if output.figure is not None:
         from usersub.scenefile import figure
 
-        figure.draw(run.history, output.figure)
+        figure.draw(history, output.figure)
     run.written = output.files
+
+
+def _problem_history(run: Run) -> results.Columns:
+    histories = [r.history for r in run.problem if getattr(r, "history", None)]
+    if not histories:
+        raise errors.SceneError(
+            f"{run.scene_file.path}: [output] asks for {run.scene_file.output.files[0].name}, but "
+            f"the problem '{run.scene_file.problem[0]}' gives no history"
+        )
+    return results.Columns(run.scene_file.problem[0], histories[0])

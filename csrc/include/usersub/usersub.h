@@ -151,7 +151,8 @@ int32_t usub_begin_increment(usub_driver *driver);
 /** Standard: one Newton iteration from the committed state, for all closed points.
  * @return USUB_OK, USUB_CUT_BACK if a routine set PNEWDT below 1, or a failure. */
 int32_t usub_iterate(usub_driver *driver);
-/** Standard: accepts the last iteration; the only call that changes committed state. */
+/** Standard: accepts the last iteration, which has to have succeeded; the only call that changes
+ * committed state. */
 int32_t usub_commit(usub_driver *driver);
 /** Standard: forgets the increment. */
 int32_t usub_cut_back(usub_driver *driver);

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""The rigid block in an implicit host, through FRIC or FRIC_COEF.
+
+Implicit midpoint rule: the unknown of an increment is the motion dx, the velocities follow from
+dx = dt (v0 + v1)/2, and Newton solves
+
+    m (v1 - v0)/dt + sum of A tau(dx) = 0
+
+with the tangents of the driver. The slip rate of the increment, dx/dt, is the velocity at its
+middle: the rule is symmetric, of second order, and its error a series in even powers of dt.
+
+Two increments come before: one that closes the contact, and one that brings the elastic slip to its
+limit, so that the block starts in full friction like the rigid-plastic one of the exact answer.
+The time increment is such that the block stands still after a whole number of increments; it is
+found by Newton, each trial from the saved state. "Romberg" extrapolates from a sequence of such
+runs with doubled numbers of increments.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from usersub.problems.block import Block, Stop
+from usersub.problems.problem import Stopwatch
+from usersub.problems.rigid import contact_areas
+
+if TYPE_CHECKING:
+    from usersub.routine.routine import Routine
+
+#: Numbers of increments of the Romberg sequence, as parts of the last one.
+_ROMBERG_LEVELS = 4
+
+_NEWTON_LIMIT = 20
+_NEWTON_ACCURACY = 1e-13
+
+#: The block slides obliquely to the local directions.
+_DIRECTION = np.array([0.8, 0.6])
+
+
+class ImplicitBlock:
+    """The block, its contact driver and its Newton iterations."""
+
+    def __init__(self, block: Block, routine: Routine, props: list[float], points: int) -> None:
+        from usersub import Scene, StandardDriver
+
+        self.block, self.points, self.watch = block, points, Stopwatch()
+        self.area = contact_areas(block, points)
+        self.allowable = 0.005 * block.height
+        scene = Scene(
+            points=points, dimension=3, props=props, characteristic_length=block.height,
+            states=2 if routine.interface.name == "fric" else 0,
+        )  # fmt: skip
+        self.driver = StandardDriver(routine, scene, reuse=True)
+        self.slip = np.zeros((2, points), order="F")
+        self.pressure = np.full(points, block.pressure)
+        known = self.driver.layout.ports
+        extra = {"coord": np.zeros((3, points), order="F")} if "coord" in known else {}
+        self.driver.bind(slip_increment=self.slip, pressure=self.pressure, **extra)
+        self.iterations = self.increments = 0
+        self._load()
+        self.start = self.driver.state.save()
+
+    def _load(self) -> None:
+        """Closes the contact, then slips elastically to the limit."""
+        for share in (0.0, 1.0):
+            self.driver.begin_increment(1.0)
+            self.slip[...] = share * self.allowable * _DIRECTION[:, None]
+            self.driver.iterate()
+            self.driver.commit()
+
+    def increment(self, v: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray]:
+        """One increment from velocity `v`: the velocity at its end and the motion."""
+        m, area = self.block.mass, self.area
+        self.driver.begin_increment(dt)
+        dx = v * dt
+        for _ in range(_NEWTON_LIMIT):
+            self.slip[...] = dx[:, None]
+            with self.watch:
+                response = self.driver.iterate()
+            self.iterations += 1
+            inertia = m * (2.0 * dx / dt - 2.0 * v) / dt
+            residual = inertia + response.tau @ area
+            tangent = 2.0 * m / dt**2 * np.eye(2) + response.ddtddg @ area
+            change = np.linalg.solve(tangent, residual)
+            dx = dx - change
+            if np.abs(change).max() <= _NEWTON_ACCURACY * np.abs(dx).max():
+                break
+        self.driver.commit()
+        self.increments += 1
+        return 2.0 * dx / dt - v, dx
+
+    def slide(self, time: float, count: int, rows: list | None = None) -> tuple[float, float, float]:
+        """`count` increments up to `time`: velocity, distance, friction stress at the end."""
+        self.driver.state.load(self.start)
+        v, x, dt = self.block.velocity * _DIRECTION, np.zeros(2), time / count
+        for i in range(count):
+            v, dx = self.increment(v, dt)
+            x = x + dx
+            if rows is not None:
+                force = float(_DIRECTION @ (self.driver.array("tau") @ self.area))
+                rows.append(((i + 1) * dt, float(_DIRECTION @ x), float(_DIRECTION @ v), force))
+        stress = float(_DIRECTION @ (self.driver.array("tau") @ self.area))
+        return float(_DIRECTION @ v), float(_DIRECTION @ x), stress
+
+    def stop(self, guess: float, count: int, rows: list | None = None) -> Stop:
+        """Time and distance at rest after `count` equal increments."""
+        time = guess
+        for _ in range(_NEWTON_LIMIT):
+            v, x, force = self.slide(time, count)
+            change = v * self.block.mass / force
+            time += change
+            if abs(change) <= 1e-14 * time:
+                break
+        if rows is not None:
+            self.slide(time, count, rows)
+        return Stop(time, x)
+
+
+def run(
+    block: Block,
+    exact: Stop,
+    props: list[float],
+    routine: Routine,
+    method: str,
+    points: int,
+    steps: int,
+    rows: list | None,
+) -> tuple[Stop, Stopwatch, float, dict[str, float]]:
+    """One run: stop, stopwatch, time increment, Newton iterations an increment and orders."""
+    host = ImplicitBlock(block, routine, props, points)
+    # Any sensible guess does; this one is too early, so that no trial run reverses the block.
+    guess = 0.9 * exact.time
+    if method == "implicit":
+        stop = host.stop(guess, steps, rows)
+    else:
+        counts = [steps >> level for level in reversed(range(_ROMBERG_LEVELS))]
+        stops = []
+        for count in counts:
+            stops.append(host.stop(stops[-1].time if stops else guess, count))
+        stop = Stop(*(_romberg([s[i] for s in stops]) for i in range(2)))
+    details = {"newton_iterations": host.iterations / host.increments}
+    return stop, host.watch, exact.time / steps, details
+
+
+def _romberg(values: list[float]) -> float:
+    """Extrapolates results of 1, 2, 4, ... times as many increments, error even in the increment."""
+    for level in range(1, len(values)):
+        factor = 4.0**level
+        values = [
+            fine + (fine - coarse) / (factor - 1.0)
+            for coarse, fine in zip(values, values[1:], strict=False)
+        ]
+    return values[0] if math.isfinite(values[0]) else math.nan

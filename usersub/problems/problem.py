@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""What a problem with a known answer is, and what one run of it gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from usersub.routine.routine import Routine
+
+#: The keys of one result, in their order.
+KEYS = (
+    "problem", "law", "interface", "language", "precision", "method", "step", "points", "error",
+    "error_of", "run_time_s", "ns_per_point",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One run against the exact answer.
+
+    Attributes:
+        problem, law, interface, language, precision, method: what was run.
+        step: largest time increment, in seconds.
+        points: contact points a call.
+        error: largest relative error of what `error_of` names.
+        error_of: the compared quantities, in words.
+        run_time_s: wall time of the run, without compilation.
+        ns_per_point: time inside the driver over calls and contact points, in nanoseconds.
+        tolerance: the error that the method allows.
+        details: more numbers: orders of convergence, Newton iterations, errors one by one.
+        history: arrays against time, by name, for files and figures.
+    """
+
+    problem: str
+    law: str
+    interface: str
+    language: str
+    precision: str
+    method: str
+    step: float
+    points: int
+    error: float
+    error_of: str
+    run_time_s: float
+    ns_per_point: float
+    tolerance: float
+    details: Mapping[str, float] = field(default_factory=dict)
+    history: Mapping[str, np.ndarray] | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the error is within the tolerance (NaN is not)."""
+        return self.error <= self.tolerance
+
+    def as_dict(self) -> dict[str, object]:
+        """The result under exactly the keys of `KEYS`."""
+        return {key: getattr(self, key) for key in KEYS}
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A problem with a known answer.
+
+    Attributes:
+        name: "P1", ...
+        title: one line.
+        statement: what is given and what is asked for.
+        laws: laws it is for; the first is the default.
+        interfaces: interfaces through which it runs.
+        methods: hosts and time integrations by interface; the first is the default.
+        runner: `runner(routine, law, precision, method, **options) -> Outcome`.
+        options: further options of the runner and what they mean.
+    """
+
+    name: str
+    title: str
+    statement: str
+    laws: tuple[str, ...]
+    methods: Mapping[str, tuple[str, ...]]
+    runner: Callable[..., Outcome] = field(repr=False)
+    options: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def interfaces(self) -> tuple[str, ...]:
+        """Interfaces through which the problem runs."""
+        return tuple(self.methods)
+
+    def run(
+        self,
+        routine: Routine,
+        *,
+        law: str | None = None,
+        precision: str = "double",
+        method: str | None = None,
+        **options: object,
+    ) -> Outcome:
+        """Runs the problem through a routine that holds `law`.
+
+        Raises:
+            SceneError: interface, method or option does not fit the problem.
+            RoutineError: the routine failed.
+        """
+        from usersub.problems.choose import one_of
+
+        one_of("option", options, self.options, self.name)
+        law = one_of("law", [law or self.laws[0]], self.laws, self.name)
+        interface = one_of("interface", [routine.interface.name], self.methods, self.name)
+        methods = self.methods[interface]
+        method = one_of("method", [method or methods[0]], methods, f"{self.name} by {interface}")
+        return self.runner(routine, law, precision, method, **options)
+
+
+class Stopwatch:
+    """Adds up the time that is spent inside driver calls."""
+
+    def __init__(self) -> None:
+        self.seconds, self.calls, self._start = 0.0, 0, perf_counter()
+
+    def __enter__(self) -> None:
+        self._entered = perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.seconds += perf_counter() - self._entered
+        self.calls += 1
+
+    def times(self, points: int) -> dict[str, float]:
+        """`run_time_s` since the stopwatch was made, and `ns_per_point`."""
+        return {
+            "run_time_s": perf_counter() - self._start,
+            "ns_per_point": 1e9 * self.seconds / max(1, self.calls * points),
+        }

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""A rigid block that friction stops, in an explicit host.
+
+The block rests on several contact points of unequal area, which share its weight and its mass.
+
+`central_differences` is the scheme of explicit solvers: the force of an increment is bounded by the
+stick force m |v|/dt of the predicted velocity, so that the last increment ends at rest. With a
+constant force it is exact; with a force that depends on the slip rate, which is that of the
+predicted velocity, it is of first order.
+
+`runge_kutta` takes classical fourth-order steps in time and a last one with the velocity as
+independent variable (Henon's step), by Gauss quadrature, which ends exactly at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from usersub import stick_force_kinematic
+from usersub.problems.block import Block, Stop
+from usersub.problems.explicit_contact import ExplicitContact
+
+#: Friction force of the whole block at a velocity: force(velocity, time_increment, time).
+Force = Callable[[float, float, float], float]
+
+#: Gauss points of the last step of `runge_kutta`.
+_GAUSS_POINTS = 6
+
+#: The last step begins when this many ordinary increments would stop the block.
+_INCREMENTS_LEFT = 2.5
+
+
+def contact_areas(block: Block, points: int) -> np.ndarray:
+    """Areas of the contact points: all different, in sum that of the block."""
+    share = 1.0 + np.arange(points) / points
+    return block.area * share / share.sum()
+
+
+def contact_coordinates(block: Block, points: int, dimension: int) -> np.ndarray:
+    """Contact points along the block, shape (dimension, points)."""
+    coordinates = np.zeros((dimension, points), order="F")
+    coordinates[0] = block.length * (np.arange(points) + 0.5) / points
+    return coordinates
+
+
+def friction_of(block: Block, contact: ExplicitContact, direction: np.ndarray) -> Force:
+    """Friction force of the block along `direction`, as a function of its velocity."""
+    area = np.asarray(contact.arrays["area"], float)
+    area *= block.area / area.sum()
+    normal_force = block.pressure * area
+    mass = block.mass * area / block.area
+    normal = np.zeros((len(direction), contact.points), order="F")
+    normal[1] = 1.0
+    ones = np.ones(contact.points)
+
+    def force(velocity: float, time_increment: float, time: float) -> float:
+        speed = np.asfortranarray(np.outer(direction * velocity, ones))
+        stick = stick_force_kinematic(speed, normal, mass, time_increment)
+        slip = speed * time_increment
+        return float(-direction @ contact.force(slip, normal_force, stick, time_increment, time).sum(1))
+
+    return force
+
+
+def central_differences(
+    block: Block, force: Force, time_increment: float, history: list | None = None
+) -> Stop:
+    """Explicit central differences until the stick force bounds the friction."""
+    x, v, t = 0.0, block.velocity, 0.0
+    h = 0.5 * time_increment  # the first increment takes the velocity to the middle of the step
+    before = np.inf
+    while True:
+        now = force(v, h, t + h)
+        stopped = now < before and now * h >= v * block.mass * (1.0 - 1e-6)
+        if stopped:
+            break
+        v -= now * h / block.mass
+        x += v * time_increment
+        t += time_increment
+        before, h = now, time_increment
+        if history is not None:
+            history.append((t, x, v, now))
+    # The bound took the share `now/before` of the last increment, counted from where v belongs.
+    start = t - 0.5 * time_increment if t > 0.0 else 0.0
+    deceleration = before / block.mass
+    at_start = x - 0.5 * v * time_increment + 0.125 * deceleration * time_increment**2
+    rest = h * now / before
+    return Stop(start + rest, at_start + 0.5 * v * rest)
+
+
+def runge_kutta(
+    block: Block, force: Force, time_increment: float, history: list | None = None
+) -> Stop:
+    """Fourth-order steps in time, the last one over the velocity."""
+    x, v, t, dt, m = 0.0, block.velocity, 0.0, time_increment, block.mass
+    while True:
+        a = force(v, dt, t) / m
+        if v <= _INCREMENTS_LEFT * a * dt:
+            break
+        v2 = v - 0.5 * dt * a
+        a2 = force(v2, dt, t) / m
+        v3 = v - 0.5 * dt * a2
+        a3 = force(v3, dt, t) / m
+        v4 = v - dt * a3
+        a4 = force(v4, dt, t) / m
+        x += dt * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
+        v -= dt * (a + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+        t += dt
+        if history is not None:
+            history.append((t, x, v, m * a4))
+    nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    time, distance = t, x
+    for node, weight in zip(nodes, weights, strict=True):
+        u = 0.5 * v * (node + 1.0)
+        # A small increment, in which the stick force stays well above the friction.
+        inverse = m / force(u, u / (4.0 * a), t)
+        time += 0.5 * v * weight * inverse
+        distance += 0.5 * v * weight * u * inverse
+    return Stop(time, distance)
