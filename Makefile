@@ -2,7 +2,7 @@
 # Task runner. `make build PYTHON=/path/to/python` works in another environment.
 PYTHON ?= python
 PYTEST_ARGS ?=
-C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/include/usersub/*.h)
+C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h)
 
 .PHONY: help build gen check-gen test lint format docs bench clean
 

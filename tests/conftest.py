@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fixtures of all tests. A missing tool skips with a reason; USERSUB_FORBID_SKIPS=1 forbids that."""
+"""Fixtures of all tests. A missing tool skips, with a reason; USERSUB_FORBID_SKIPS=1 forbids it."""
 
 from __future__ import annotations
 
@@ -96,7 +96,8 @@ def _compiled(folder, interface, source, generation, precision, more):
         pytest.skip("a C compiler is missing; install it, for example with `apt-get install gcc`")
     (folder / "routine.c").write_text(source)
     command = ["cc", "-O2", "-fPIC", "-shared", f"-I{paths.include_folder()}", "routine.c"]
-    subprocess.run([*command, "-o", "routine.so", "-lm"], cwd=folder, check=True)
+    link = [f"-L{paths.library_path().parent}", "-lusersub", "-lm"]
+    subprocess.run([*command, "-o", "routine.so", *link], cwd=folder, check=True)
     face = abi.interface(interface, generation)
     library = ctypes.CDLL(str(folder / "routine.so"))
     address = ctypes.cast(getattr(library, face.symbol), ctypes.c_void_p).value

@@ -23,7 +23,7 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from usersub import driver as driver
+    from usersub.driver import make as driver
     from usersub.driver.coefficient import CoefficientDriver as CoefficientDriver
     from usersub.driver.explicit import ExplicitDriver as ExplicitDriver
     from usersub.driver.scene import Scene as Scene

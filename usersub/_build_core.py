@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the C source of `usersub._core`; called by CMake as `python -m usersub._build_core OUT`."""
+"""Writes the C source of `usersub._core`: `python -m usersub._build_core OUT`, called by CMake."""
 
 from __future__ import annotations
 

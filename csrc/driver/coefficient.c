@@ -187,5 +187,6 @@ int32_t usub_evaluate(usub_driver *driver) {
   if (bytes) memcpy(driver->state_backup, driver->memory.state, bytes);
   status = usub_run_blocks(driver, usub_coefficient_block);
   if (status < 0 && bytes) memcpy(driver->memory.state, driver->state_backup, bytes);
+  if (status >= 0) driver->accepted = driver->clock;
   return status;
 }

@@ -71,6 +71,7 @@ int32_t usub_step(usub_driver *driver) {
     finish_f(driver);
   else
     finish_d(driver);
+  driver->accepted = driver->clock;
   return USUB_OK;
 }
 

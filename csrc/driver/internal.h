@@ -170,7 +170,7 @@ struct usub_driver {
   int32_t looked_at[USUB_MAX_ARGS], looked_at_count; /* inputs that are checked for NaN */
   usub_call *calls; /* one a worker */
   usub_pool *pool;
-  usub_clock clock;
+  usub_clock clock, accepted; /* now; of the last increment that counts, which is what is saved */
   usub_counts counts;
   char names[3][USUB_NAME_LENGTH];
   void *props;

@@ -410,6 +410,7 @@ int32_t usub_commit(usub_driver *driver) {
     memcpy(at.elastic_slip, driver->trial_elastic, n * F * sizeof(double));
     memcpy(at.equivalent_slip, driver->trial_equivalent, n * sizeof(double));
   }
+  driver->accepted = driver->clock;
   driver->increment_open = 0;
   return USUB_OK;
 }

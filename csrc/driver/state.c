@@ -58,13 +58,13 @@ static state_header header_of(const usub_driver *driver) {
       .sizes = {size->N, size->D, size->F, size->S, size->P, size->A, size->B, size->M, size->X,
                 size->Y, size->Z, size->T},
       .has_force = driver->last_force != NULL,
-      .step = driver->clock.flags[0],
-      .increment = driver->clock.flags[1],
-      .work = driver->clock.time[3],
+      .step = driver->accepted.flags[0],
+      .increment = driver->accepted.flags[1],
+      .work = driver->accepted.time[3],
       .dissipation = driver->dissipation,
   };
   memcpy(header.magic, "USUBSTAT", sizeof header.magic);
-  memcpy(header.time, driver->clock.time, sizeof header.time);
+  memcpy(header.time, driver->accepted.time, sizeof header.time);
   header.payload = payload_bytes(driver, header.has_force);
   return header;
 }
@@ -136,5 +136,8 @@ int32_t usub_state_load(usub_driver *driver, const void *buffer, size_t size) {
   driver->dissipation = saved.dissipation;
   usub_set_friction_work(driver, saved.work);
   driver->iterated = 0;
-  return usub_set_time(driver, saved.step, saved.increment, saved.time[0], saved.time[1], saved.time[2]);
+  const int32_t status = usub_set_time(driver, saved.step, saved.increment, saved.time[0],
+                                       saved.time[1], saved.time[2]);
+  driver->accepted = driver->clock;
+  return status;
 }

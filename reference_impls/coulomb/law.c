@@ -4,4 +4,6 @@
 #define USUB_LAW_PROPS 1
 #include <usersub/coefficient_law.h>
 
-USUB_LAW_FUNCTION { return props[0]; }
+USUB_LAW_FUNCTION {
+  return props[0];
+}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Coefficient from a table over slip rate, pressure and temperature: linear inside, constant outside.
- * props: numbers of rates, pressures, temperatures; these points, ascending; the coefficients, the
- * rate running fastest. */
+/* Coefficient from a table over slip rate, pressure and temperature: linear inside, constant
+ * outside. props: numbers of rates, pressures, temperatures; these points, ascending; the
+ * coefficients, the rate running fastest. */
 #define USUB_LAW "coulomb_tabulated"
 #define USUB_LAW_PROPS table_props(props, count)
 #define USUB_LAW_READS_RATE
@@ -13,7 +13,8 @@
 static int table_props(const usub_real *props, int count) {
   double points = 3, values = 1;
   for (int i = 0; i < 3; ++i) {
-    if (count < 7 || !(props[i] >= 1 && props[i] <= count)) return count < 7 ? 7 : count + 1;
+    if (count < 7 || !(props[i] >= 1 && props[i] <= count))
+      return count < 7 ? 7 : count + 1;
     points += (int)props[i];
     values *= (int)props[i];
   }
@@ -30,9 +31,11 @@ typedef struct place {
 
 static place find(const usub_real *points, int count, usub_real x) {
   place at = {0, 0, 0, 0};
-  if (count < 2 || x < points[0]) return at;
+  if (count < 2 || x < points[0])
+    return at;
   at.low = at.high = count - 1;
-  if (x >= points[count - 1]) return at;
+  if (x >= points[count - 1])
+    return at;
   at.low = 0;
   while (at.high - at.low > 1) {
     const int middle = (at.low + at.high) / 2;

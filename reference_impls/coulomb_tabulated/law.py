@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Coefficient from a table over slip rate, pressure and temperature: linear inside, constant outside.
+"""Coefficient from a table over slip rate, pressure, temperature: linear inside, constant outside.
 
 props: numbers of rates, pressures, temperatures; these points, ascending; the coefficients, the
 rate running fastest.

@@ -17,6 +17,4 @@ def temperature_pressure_decay(slip_rate, pressure, temperature, props):
     )
 
 
-fric, fric_coef, vfric, vfriction, vfric_coef = coefficient_law(
-    temperature_pressure_decay, props=5
-)
+fric, fric_coef, vfric, vfriction, vfric_coef = coefficient_law(temperature_pressure_decay, props=5)

@@ -6,6 +6,7 @@
 #include <usersub/traction_law.h>
 
 USUB_LAW_FUNCTION {
-  if (derivative) derivative[0] = 1 / props[0];
+  if (derivative)
+    derivative[0] = 1 / props[0];
   return rate / props[0];
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Measures the drivers against limits written by hand: `make bench`, or `python -m tests.benchmarks`.
+"""Measures the drivers against limits written by hand: `make bench`.
 
-Prints a table and writes it to docs/benchmarks.md, or to the file that is named. Timings are
+Prints a table and writes it to docs/explanation/benchmarks.md, or to the file that is named. Timings are
 medians of interleaved rounds in one process; only the ratios carry over to other machines.
 """
 
@@ -105,7 +105,7 @@ def blocks(folder: Path, points: int) -> list[Row]:
     }
     if laws.has_fortran():
         flags = fortran.flags(False, "double")
-        routines["Fortran"] = laws.routine(folder, "decay.f", laws.FORTRAN_ROUTINE)
+        routines["Fortran"] = laws.routine(folder, "decay.f", laws.fortran_routine())
         limits["Fortran"] = laws.limit(folder, "limit.f", laws.FORTRAN_LIMIT, flags)
     rate, coefficient = slip_rates(points), np.empty(points)
     repeats: dict[str, Callable[[int], None]] = {}
@@ -121,8 +121,14 @@ def blocks(folder: Path, points: int) -> list[Row]:
         np.testing.assert_allclose(driver.array("coefficient"), coefficient, rtol=1e-14)
     found = medians(repeats)
     return [
-        ("VFRIC_COEF, exponential decay", language, points, found[language],
-         found[f"{language} limit"], f"loop by hand in {language}")
+        (
+            "VFRIC_COEF, exponential decay",
+            language,
+            points,
+            found[language],
+            found[f"{language} limit"],
+            f"loop by hand in {language}",
+        )
         for language in routines
     ]
 
@@ -163,7 +169,7 @@ def table(rows: list[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def main(output: str = "docs/benchmarks.md") -> None:
+def main(output: str = "docs/explanation/benchmarks.md") -> None:
     """Measures everything and writes the table to the file `output`."""
     with tempfile.TemporaryDirectory() as folder:
         rows = one_point(Path(folder))

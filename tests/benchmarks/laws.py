@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import usersub
+from usersub import abi
 
 PROPS = (0.15, 0.05, 0.01)
 
@@ -50,20 +51,13 @@ C_EMPTY = """\
 void vfric_coef_(USUB_VFRIC_COEF_PARAMETERS) {}
 """
 
-FORTRAN_ROUTINE = """\
-      subroutine vfric_coef(fCoef, fCoefDeriv, nBlock, nProps, nTemp,
-     *  nFields, jFlags, rData, surfInt, surfSlv, surfMst, props,
-     *  slipRate, pressure, tempAvg, fieldAvg)
+FORTRAN_BODY = """\
       include 'VABA_PARAM.INC'
-      dimension fCoef(nBlock), fCoefDeriv(nBlock,3), jFlags(2),
-     *  rData(3), props(nProps), slipRate(nBlock), pressure(nBlock),
-     *  tempAvg(nBlock), fieldAvg(nBlock,nFields)
-      character*80 surfInt, surfSlv, surfMst
+      dimension fCoef(nBlock), props(nProps), slipRate(nBlock)
       do k = 1, nBlock
         fCoef(k) = props(2) + (props(1) - props(2))
      *    * exp(-props(3) * slipRate(k))
       end do
-      return
       end
 """
 
@@ -95,6 +89,15 @@ def routine(folder: Path, name: str, source: str) -> usersub.Routine:
     path = folder / name
     path.write_text(source)
     return usersub.load(path)["vfric_coef"]
+
+
+def fortran_routine() -> str:
+    """The law in fixed form, with the argument list of the table."""
+    names = [argument.name for argument in abi.interface("vfric_coef").args]
+    lines = [", ".join(names[i : i + 4]) for i in range(0, len(names), 4)]
+    return (
+        f"      subroutine vfric_coef({(',' + chr(10) + '     *  ').join(lines)})\n{FORTRAN_BODY}"
+    )
 
 
 def limit(folder: Path, name: str, source: str, flags: tuple[str, ...]) -> Limit:

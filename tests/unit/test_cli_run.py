@@ -393,3 +393,38 @@ def test_scene_that_does_not_fit_names_the_file(tmp_path):
 
 def test_all_interfaces_have_been_seen():
     assert {*DECAY, "fric"} == set(abi.NAMES)
+
+
+PROBLEM = '[scene]\nprecision = "single"\n[problem]\nname = "p1"\n'
+
+
+def test_problem_with_own_routine_and_output(tmp_path):
+    path = write(tmp_path, DECAY["vfric_coef"], TWO)
+    code = "@usersub.vfric_coef\ndef law(fCoef, props):\n    fCoef[:] = props[0]\n"
+    (tmp_path / "law.py").write_text(HEAD + code)
+    path.write_text('routine = "law.py"\n' + PROBLEM + OUTPUT)
+    result = cli_run(path)
+    assert result.exit_code == 0, result.stderr
+    assert "P1" in result.stdout and "wrote" in result.stdout
+    header = (tmp_path / "out.csv").read_text().splitlines()[0]
+    assert header.startswith("time,")
+    (row,) = json.loads(cli_run(path, "--json").stdout)["results"]
+    assert row["ok"] and row["precision"] == "single" and row["interface"] == "vfric_coef"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[problem]\nname = "p11"', "did you mean 'P1'?"),
+        ('[problem]\nname = "P1"\nmethod = "rigit"', "did you mean 'rigid'?"),
+        ('[problem]\nname = "P1"\nmetod = "rigid"', "metod"),
+        ('[problem]\nname = "P1"\nmethod = 3', "method"),
+        ('interface = "fric_coef"\n[problem]\nname = "P3"', "fric_coef"),
+    ],
+)
+def test_problem_that_does_not_fit(tmp_path, text, words):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    result = cli_run(path)
+    assert result.exit_code == 1 and words in result.stderr
+    assert result.stderr.startswith(f"usersub run: {path}: ")

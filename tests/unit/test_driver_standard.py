@@ -342,7 +342,9 @@ def test_penalty_enforcement_of_coulomb(c_routine, generation):
     np.testing.assert_allclose(made.array("coefficient")[0], 0.4)
     slipped = arrays["slip_increment"] * np.where(stuck, 0.0, (0.3 - 0.01) / 0.3)
     np.testing.assert_allclose(found.dslip, slipped, atol=1e-15)
-    np.testing.assert_allclose(made.state["elastic_slip"] + slipped, arrays["slip_increment"], rtol=1e-13)
+    np.testing.assert_allclose(
+        made.state["elastic_slip"] + slipped, arrays["slip_increment"], rtol=1e-13
+    )
     # tangent in stick: limit / elastic slip, and tau / p
     for point in np.flatnonzero(stuck):
         np.testing.assert_allclose(
@@ -381,7 +383,9 @@ def test_fric_coef_needs_an_elastic_slip(c_routine):
     made = coulomb(c_routine)
     with pytest.raises(SceneError, match="elastic_slip"):
         usersub.StandardDriver(made.routine, made.scene.replace(elastic_slip=0.0))
-    by_length = made.scene.replace(elastic_slip=0.0, characteristic_length=2.0, slip_tolerance=0.005)
+    by_length = made.scene.replace(
+        elastic_slip=0.0, characteristic_length=2.0, slip_tolerance=0.005
+    )
     other = usersub.StandardDriver(made.routine, by_length)
     for driver in (made, other):
         driver.begin_increment(1.0)

@@ -566,6 +566,31 @@ def test_jump_in_a_wide_bracket(enforcement, size):
     assert calls[-1] == output.equivalent
 
 
+def test_window_without_friction(enforcement):
+    """Frictionless between two slip rates only, so that at the jump |g~| can be zero in slip."""
+    seen = set()
+    for i in range(40):
+        low = 0.2 + i / 100
+
+        def friction(_context, data, value, low=low):
+            value[0].mu[:] = (0.0, 0.5) if low < data[0] < 1.8 else (0.5, 0.0)
+            for k in range(2):
+                value[0].d_mu[k][:] = [0.1 * (k + 1)] * 8
+            return 0
+
+        case = replace(
+            BASE, anisotropic=True, elastic_slip=(0.0, 0.0), slip_increment=(2.0, 0.0),
+            time_increment=1.0,
+        )  # fmt: skip
+        status, output = update(enforcement, case, friction=friction)
+        assert status == CODE["OK"] and output.equivalent == pytest.approx(low, rel=1e-13)
+        numbers = [*output.tau, *(x for row in output.by_gamma for x in row)]
+        assert all(map(math.isfinite, numbers))
+        assert output.tau[0] == pytest.approx(output.mu[0] * case.pressure, rel=1e-14)
+        seen.add(output.mu[0])
+    assert seen == {0.0, 0.5}
+
+
 def test_zero_only_while_it_sticks(enforcement):
     """A direction that is frictionless at rest but not in motion keeps its elastic slip."""
     calls = []

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import math
 import os
 import subprocess
@@ -645,3 +646,15 @@ def test_without_a_cache_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("USERSUB_CACHE", str(blocked / "below"))
     routine = python.vfric_coef(failing)
     assert Call(routine.interface, "double").run(routine.entry()) == RAISED
+
+
+def test_a_routine_can_be_copied_with_changes():
+    routine = dataclasses.replace(python.vfric_coef(failing), name="other", block_safe=True)
+    assert isinstance(routine, python.PythonRoutine)
+    assert routine.name == "other" and routine.block_safe and routine.function is failing
+    assert Call(routine.interface, "double").run(routine.entry()) == RAISED
+
+
+def test_unknown_generation():
+    with pytest.raises(AbiError, match="VFRIC has no generation '2022'; it has legacy"):
+        make("def law(fTangential): pass", python.vfric, generation="2022")

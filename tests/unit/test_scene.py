@@ -21,7 +21,9 @@ def test_defaults_are_those_of_the_table():
 
 
 def test_settings_are_attributes_and_keys():
-    scene = Scene(points=7, dimension=2, slip_tolerance=0.01, contact="edge-to-edge", props=[1, 2.5])
+    scene = Scene(
+        points=7, dimension=2, slip_tolerance=0.01, contact="edge-to-edge", props=[1, 2.5]
+    )
     assert (scene.points, scene["dimension"], scene.slip_tolerance) == (7, 2, 0.01)
     assert scene.props == (1.0, 2.5)
     assert repr(scene) == (

@@ -269,3 +269,25 @@ def test_a_column_is_given_once(tmp_path):
     (tmp_path / "h.csv").write_text("time,slip_1,slip_2\n0,0,0\n1,1,1\n")
     with pytest.raises(SceneError, match="gives 'time' itself and in file"):
         complete(scene_file(tmp_path, 'file = "h.csv"\ntime = [0, 1]\npressure = 1.0'))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("props = [1.0]\n[problem]\nname = 'P1'", ["props = [1.0]", "[problem]"]),
+        ("[scene]\npoints = 3\n[problem]\nname = 'P1'", ["[scene] points = 3", "'precision'"]),
+        ("[problem]\nname = 'P1'\nlanguage = 'c'", ["language", "belongs at the top"]),
+        ("[problem]\nname = 'P1'\nprecision = 'single'", ["precision", "belongs in [scene]"]),
+        ("[problem]\nmethod = 'rigid'", ["[problem] needs the key 'name'"]),
+        ("[problem]\nname = 1", ["name = 1", "text"]),
+        ("[problem]\nname = 'P1'\npoints = 0", ["points = 0", "at least 1"]),
+        ("[problem]\nname = 'P1'\nsteps = 1.5", ["steps = 1.5", "an integer"]),
+        ("[problem]\nname = 'P1'\nother = [1]", ["other = [1]", "true or false"]),
+    ],
+)
+def test_wrong_problem(tmp_path, text, words):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    with pytest.raises(SceneError) as raised:
+        read(path)
+    check(raised, "scene.toml", words)

@@ -76,7 +76,11 @@ def command(
     if as_json:
         print_json("demo", rows, ok=ok, missing=missing, seconds=seconds)
     else:
-        _print(rows, missing, seconds)
+        print_rows(rows)
+        for language, sentence in missing.items():
+            click.echo(f"left out: {language}: {sentence}")
+        good = sum(row["ok"] for row in rows)
+        click.echo(f"{good} of {len(rows)} cases within their tolerance, {seconds:.1f} s")
     return 0 if ok else 1
 
 
@@ -115,17 +119,26 @@ def _run(case: Any) -> dict[str, Any]:
         outcome = case.run()
     except Error as error:
         return row | {"ok": False, "failure": f"{type(error).__name__}: {error}"}
-    row |= {name: getattr(outcome, name) for name in FIELDS if hasattr(outcome, name)}
-    # A NaN is within no tolerance.
+    return row_of(outcome)
+
+
+def row_of(outcome: Any) -> dict[str, Any]:
+    """The line of one outcome; a NaN is within no tolerance."""
+    row = {name: getattr(outcome, name, None) for name in FIELDS}
     return row | {"ok": bool(row["error"] <= row["tolerance"]), "failure": None}
 
 
-def _print(rows: list[dict[str, Any]], missing: dict[str, str], seconds: float) -> None:
+def _nanoseconds(value: float) -> str:
+    return f"{value:.0f}" if value >= 100.0 else number(value, 3)
+
+
+def print_rows(rows: list[dict[str, Any]]) -> None:
+    """Prints one table, a line for each result; those that failed are red and say why."""
     cells, styles = [], []
     for row in rows:
         failed = row["failure"] is not None
         numbers = ("", "", "") if failed else (
-            number(row["error"], 2), number(row["tolerance"], 2), number(row["ns_per_point"], 3)
+            number(row["error"], 2), number(row["tolerance"], 2), _nanoseconds(row["ns_per_point"])
         )
         names = [row[k] or "" for k in FIELDS[:6]]
         verdict = "ok" if row["ok"] else (row["failure"] or "TOO LARGE")
@@ -133,7 +146,3 @@ def _print(rows: list[dict[str, Any]], missing: dict[str, str], seconds: float) 
                       verdict))
         styles.append("" if row["ok"] else "red")
     print_table("", _COLUMNS, cells, right=_RIGHT, styles=styles)
-    for language, sentence in missing.items():
-        click.echo(f"left out: {language}: {sentence}")
-    good = sum(row["ok"] for row in rows)
-    click.echo(f"{good} of {len(rows)} cases within their tolerance, {seconds:.1f} s")

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from usersub.cli.command import Examples, common
+from usersub.cli.demo import print_rows, row_of
 from usersub.cli.output import number, print_json, print_table, progress, relative
 
 #: Lines that are printed of a history, at most.
@@ -38,11 +39,11 @@ def command(scene: Path, show_plan: bool, everything: bool, as_json: bool) -> in
         run = run_scene(scene, progress=tell)
     written = [relative(path) for path in run.written]
     if run.history is None:
-        rows = [_as_row(outcome) for outcome in run.problem]
+        rows = [row_of(outcome) for outcome in run.problem]
         if as_json:
             print_json("run", rows, ok=run.ok, written=written)
         else:
-            _print_problem(rows)
+            print_rows(rows)
     elif as_json:
         history = run.history
         print_json(
@@ -58,21 +59,6 @@ def command(scene: Path, show_plan: bool, everything: bool, as_json: bool) -> in
         for path in written:
             click.echo(f"wrote {path}")
     return 0 if run.ok else 1
-
-
-def _as_row(outcome: Any) -> dict[str, Any]:
-    from usersub.cli.demo import FIELDS
-
-    row = {name: getattr(outcome, name, None) for name in FIELDS}
-    return row | {"ok": bool(row["error"] <= row["tolerance"])}
-
-
-def _print_problem(rows: list[dict[str, Any]]) -> None:
-    columns = [k for k in rows[0] if any(row[k] is not None for row in rows)] if rows else []
-    cells = [
-        [number(row[k]) if isinstance(row[k], float) else row[k] for k in columns] for row in rows
-    ]
-    print_table("", columns, cells)
 
 
 def _print_history(history: Any, everything: bool) -> None:

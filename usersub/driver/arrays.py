@@ -44,7 +44,7 @@ def sizes(scene: Scene, face_name: str, kind: str) -> dict[str, int]:
         "Y": scene["main_nodes"],
         "Z": scene["nodes"],
         "T": 4 if edges else 1,
-    }  # type: ignore[return-value]
+    }
 
 
 def shape_of(port: ports.Port, size: Mapping[str, int]) -> tuple[int, ...]:
@@ -65,7 +65,7 @@ class Layout:
     def __init__(self, title: str, face_name: str, kind: str, scene: Scene) -> None:
         self.title = title
         self.ports = ports_of(face_name, kind)
-        size, precision = sizes(scene, face_name, kind), str(scene["precision"])
+        size, precision = sizes(scene, face_name, kind), scene["precision"]
         self.shapes = {name: shape_of(port, size) for name, port in self.ports.items()}
         self.dtypes = {name: dtype_of(port, precision) for name, port in self.ports.items()}
 

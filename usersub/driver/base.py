@@ -8,13 +8,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from usersub._prepared import Prepared
 from usersub.core import ffi, lib, text
-from usersub.driver import status
+from usersub.driver import handles, status
 from usersub.driver.arrays import Layout
+from usersub.driver.clock import Clock, int32
 from usersub.driver.plan import Plan, PlanRow
 from usersub.driver.scene import Scene
 from usersub.driver.state import State
-from usersub.errors import AbiError, Error, SceneError
+from usersub.errors import RoutineError, SceneError
 from usersub.routine.routine import Routine
 
 _RAISED = status.VALUES["ROUTINE_RAISED"]
@@ -41,18 +43,18 @@ class Driver:
 
     def __init__(self, routine: Routine, scene: Scene, *, reuse: bool = False) -> None:
         _check_types(type(self), routine, scene)
-        _prepare_process()
+        handles.prepare_process()
         face = routine.interface
         self.routine, self.scene, self.reuse = routine, scene, reuse
         self._title = f"{face.name.upper()} '{routine.name}'"
         self.layout = Layout(self._title, face.name, self.kind, scene)
-        self._entry = routine.entry(str(scene["precision"]))
-        self._c_routine = _make_routine(routine, self._entry, str(scene["precision"]))
-        self._handle = _make_driver(self.kind, self._c_routine, scene)
+        self._entry = routine.entry(scene["precision"])
+        self._c_routine = handles.make_routine(routine, self._entry, scene["precision"])
+        self._handle = handles.make_driver(self.kind, self._c_routine, scene)
         self._bound: dict[str, np.ndarray] = {}
         self._buffers: dict[str, Any] = {}
         self._views: dict[str, np.ndarray | None] = {}
-        self._points = int(scene["points"])
+        self._points = scene["points"]
         self._clock = Clock()
         self.state = State(self)
 
@@ -119,7 +121,8 @@ class Driver:
         shape, dtype = self.layout.shapes[name], self.layout.dtypes[name]
         if count[0] == 0:
             return np.zeros(shape, dtype, order="F") if 0 in shape else None
-        return np.asarray(_Memory(self._handle, int(ffi.cast("uintptr_t", data[0])), shape, dtype))
+        address = int(ffi.cast("uintptr_t", data[0]))
+        return np.asarray(handles.Memory(self._handle, address, shape, dtype))
 
     def _result(self, name: str) -> np.ndarray | None:
         """What a call returns for the output `name`: a copy, or a view if `reuse`."""
@@ -133,7 +136,7 @@ class Driver:
 
     @points.setter
     def points(self, count: int) -> None:
-        self._check(lib.usub_set_points(self._handle, _int32("points", count)))
+        self._check(lib.usub_set_points(self._handle, int32("points", count)))
         self._points = count
 
     # Plan and state.
@@ -148,7 +151,11 @@ class Driver:
             used = None if row.read < 0 else bool(row.read)
             rows.append(
                 PlanRow(
-                    text(row.argument), text(row.what), text(row.why), used, row.bytes,
+                    text(row.argument),
+                    text(row.what),
+                    text(row.why),
+                    used,
+                    row.bytes,
                     row.bytes_full,
                 )
             )
@@ -182,19 +189,14 @@ class Driver:
         for a cut-back) and raises as the full call does; results are in the bound arrays and in
         `array(name)`.
         """
-        call, handle, check = self._c_call, self._handle, self._check
-        after = self.routine.after_call
-        if after is not None:
+        if self.routine.after_call is not None:
+            call, handle = getattr(lib, self._c_call), self._handle
             return lambda: self._finish(call(handle))
+        function = ffi.addressof(lib, self._c_call)
+        addresses = (int(ffi.cast("uintptr_t", pointer)) for pointer in (function, self._handle))
+        return Prepared(*addresses, self._check)
 
-        def prepared() -> int:
-            if found := call(handle):
-                return check(found)
-            return 0
-
-        return prepared
-
-    _c_call: ClassVar[Callable[[Any], int]]
+    _c_call: ClassVar[str]  # the function of the C core that a prepared call repeats
 
     def _finish(self, found: int) -> int:
         """Checks the status of a call of the routine, after its messages were handed on."""
@@ -214,90 +216,29 @@ class Driver:
             return found
         point = lib.usub_failed_point(self._handle)
         raised = status.exception(found, text(lib.usub_message(self._handle)), point)
-        cause = self._cause() if found == _RAISED else None
+        if not isinstance(raised, RoutineError):
+            raise raised
+        cause, where = self._cause() if found == _RAISED else (None, "")
         if cause is not None and not isinstance(cause, Exception):
             raise cause  # KeyboardInterrupt and its like are not the routine's
+        words = f": {type(cause).__name__}: {cause}" if cause is not None else ""
+        place = where or self.routine.origin
+        name = f"routine '{self.routine.name}'" + (f", {place}" if place else "")
+        raised.args = (f"{raised}{words} ({name})",)
         raise raised from cause
 
-    def _cause(self) -> BaseException | None:
-        """The exception that a Python routine raised, by calling its uncompiled twin."""
-        keep = self._entry.keep
+    def _cause(self) -> tuple[BaseException | None, str]:
+        """What a Python routine raised and "file:line" of it, by calling its uncompiled twin."""
+        keep: Any = self._entry.keep
         if getattr(keep, "exception", None) is None and self.routine.replay is not None:
-            entry = self.routine.replay(str(self.scene["precision"]))
+            entry = self.routine.replay(self.scene["precision"])
             keep = entry.keep
-            keep.exception = None  # type: ignore[attr-defined]
+            keep.exception = None
             lib.usub_replay(self._handle, ffi.cast("usub_entry", entry.address))
-        cause = getattr(keep, "exception", None)
+        cause, where = getattr(keep, "exception", None), getattr(keep, "where", "")
         if cause is not None:
-            keep.exception = None  # type: ignore[union-attr]
-        return cause
-
-
-class Clock:
-    """Step, increment and times; what the host does not give follows from what it gave last."""
-
-    def __init__(self) -> None:
-        self.step, self.increment = 1, 0
-        self.step_time = self.total_time = 0.0
-        self.pending: tuple[int, int, float, float, float] | None = None
-
-    def at(
-        self,
-        step: int,
-        increment: int | None,
-        time_increment: float,
-        step_time: float | None,
-        total_time: float | None,
-    ) -> tuple[int, int, float, float, float]:
-        """Arguments of `usub_set_time` for an increment that ends at the given times."""
-        same = step == self.step
-        duration = float(time_increment)
-        if increment is None:
-            increment = self.increment + 1 if same else 1
-        if step_time is None:
-            step_time = (self.step_time if same else 0.0) + duration
-        if total_time is None:
-            total_time = self.total_time + duration
-        return (
-            _int32("step", step), _int32("increment", increment), float(step_time),
-            float(total_time), duration,
-        )
-
-    def load(self, numbers: Any, times: Any) -> None:
-        """Takes over the clock of a loaded state."""
-        self.step, self.increment = numbers[0] or 1, numbers[1]
-        self.step_time, self.total_time = times[0], times[1]
-        self.pending = None
-
-    def accept(self) -> None:
-        """Makes the pending increment the last accepted one."""
-        if self.pending is not None:
-            self.step, self.increment, self.step_time, self.total_time, _ = self.pending
-            self.pending = None
-
-
-class _Memory:
-    """Memory of the C core for numpy; keeps the driver alive as long as a view lives."""
-
-    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], dtype: np.dtype) -> None:
-        strides, step = [], dtype.itemsize
-        for extent in shape:
-            strides.append(step)
-            step *= extent
-        self.owner = owner
-        self.__array_interface__ = {
-            "version": 3,
-            "data": (address, False),
-            "shape": shape,
-            "strides": tuple(strides),
-            "typestr": dtype.str,
-        }
-
-
-def _int32(name: str, value: int) -> int:
-    if isinstance(value, int | np.integer) and -(2**31) <= value < 2**31:
-        return int(value)
-    raise SceneError(f"{name} = {value!r}; expected an integer of 4 bytes")
+            keep.exception = None
+        return cause, where
 
 
 def _check_types(driver: type[Driver], routine: Routine, scene: Scene) -> None:
@@ -321,73 +262,3 @@ def _check_types(driver: type[Driver], routine: Routine, scene: Scene) -> None:
             f"scene setting 'precision' = '{scene['precision']}'; "
             f"{face.name.upper()} exists in {' and '.join(face.precisions)} precision only"
         )
-
-
-def _prepare_process() -> None:
-    """Faults in routines become exceptions, and messages of routines reach their receiver."""
-    from usersub.routine import messages
-
-    lib.usub_catch_faults(1)
-    messages.connect()
-
-
-def _make_routine(routine: Routine, entry: Any, precision: str) -> Any:
-    """The C core's handle of `routine`, freed with the last reference."""
-    face = routine.interface
-    made, error = ffi.new("usub_routine **"), ffi.new("usub_error *")
-    found = lib.usub_routine_create(
-        face.name.encode(), face.generation.encode(), precision.encode(), entry.style,
-        ffi.cast("usub_entry", entry.address), made, error,
-    )
-    if found < 0:
-        raise _made(found, error)
-    handle = ffi.gc(made[0], lib.usub_routine_free)
-    if routine.uses is not None:
-        uses = bytes(routine.uses)
-        if lib.usub_routine_set_uses(handle, uses, len(uses)) < 0:
-            raise AbiError(
-                f"{face.name.upper()} '{routine.name}' says what it uses of {len(uses)} arguments; "
-                f"expected {len(face.args)}"
-            )
-    for flag in ("block_safe", "thread_safe"):
-        lib.usub_routine_set_flag(handle, flag.encode(), int(getattr(routine, flag)))
-    return handle
-
-
-def _make_driver(kind: str, routine: Any, scene: Scene) -> Any:
-    """The C core's driver, freed with the last reference; it keeps the routine's handle alive."""
-    c_scene = _make_scene(scene)
-    made, error = ffi.new("usub_driver **"), ffi.new("usub_error *")
-    found = lib.usub_driver_create(kind.encode(), routine, c_scene, made, error)
-    if found < 0:
-        raise _made(found, error)
-
-    def free(handle: Any, routine: Any = routine) -> None:
-        lib.usub_driver_free(handle)
-
-    return ffi.gc(made[0], free)
-
-
-def _make_scene(scene: Scene) -> Any:
-    made = ffi.new("usub_scene **")
-    if lib.usub_scene_create(made) < 0:
-        raise Error("no memory for a scene")
-    handle = ffi.gc(made[0], lib.usub_scene_free)
-    for key, value in scene.items():
-        name = key.encode()
-        if isinstance(value, str):
-            found = lib.usub_scene_set_text(handle, name, value.encode())
-        elif isinstance(value, float):
-            found = lib.usub_scene_set_real(handle, name, value)
-        else:
-            found = lib.usub_scene_set_int(handle, name, value)
-        if found < 0:
-            raise status.exception(found, text(lib.usub_scene_message(handle)))
-    if lib.usub_scene_set_props(handle, list(scene.props), len(scene.props)) < 0:
-        raise SceneError(text(lib.usub_scene_message(handle)))
-    return handle
-
-
-def _made(found: int, error: Any) -> Error:
-    """The exception of a failed creation."""
-    return status.exception(found, text(error.message))

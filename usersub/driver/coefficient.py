@@ -14,7 +14,7 @@ class CoefficientDriver(Driver):
 
     kind = "coefficient"
     interfaces = ("fric_coef", "vfric_coef")
-    _c_call = lib.usub_evaluate
+    _c_call = "usub_evaluate"
 
     def evaluate(
         self,

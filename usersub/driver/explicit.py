@@ -30,7 +30,7 @@ class ExplicitDriver(Driver):
 
     kind = "explicit"
     interfaces = ("vfric", "vfriction", "vfric_coef")
-    _c_call = lib.usub_step
+    _c_call = "usub_step"
 
     def step(
         self,

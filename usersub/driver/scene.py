@@ -9,6 +9,7 @@ import math
 import numbers
 import operator
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 from usersub import ports
 from usersub.errors import SceneError
@@ -18,7 +19,7 @@ _INT_MAX = 2**31 - 1
 _TEXT_LENGTH = 80
 
 
-class Scene(Mapping[str, object]):
+class Scene(Mapping[str, Any]):
     """What a host's model has. Immutable; `replace` makes a changed copy.
 
     The settings and their meaning stand in `usersub.ports.SETTINGS` and in the manual ("Settings of
@@ -34,23 +35,21 @@ class Scene(Mapping[str, object]):
 
     __slots__ = ("_values", "props")
 
-    _values: dict[str, int | float | str]
+    _values: dict[str, Any]
     props: tuple[float, ...]
 
     def __init__(self, *, props: Iterable[float] = (), **settings: object) -> None:
-        values: dict[str, int | float | str] = {
-            s.key: s.default  # type: ignore[misc]
-            for s in ports.SETTINGS
-        }
+        values: dict[str, Any] = {s.key: s.default for s in ports.SETTINGS}
         values.update({key: _checked(key, value) for key, value in settings.items()})
         object.__setattr__(self, "_values", values)
         object.__setattr__(self, "props", _checked_props(props))
 
     def replace(self, **changes: object) -> Scene:
         """A copy in which `changes` (settings or `props`) are different."""
-        return Scene(**{**self._values, "props": self.props, **changes})  # type: ignore[arg-type]
+        settings: dict[str, Any] = {**self._values, "props": self.props, **changes}
+        return Scene(**settings)
 
-    def __getattr__(self, key: str) -> int | float | str:
+    def __getattr__(self, key: str) -> Any:
         if key in _SETTINGS:
             return self._values[key]
         raise AttributeError(f"a scene has no setting '{key}'{_hint(key)}")
@@ -58,9 +57,7 @@ class Scene(Mapping[str, object]):
     def __setattr__(self, key: str, value: object) -> None:
         raise AttributeError(f"a scene cannot be changed; use scene.replace({key}=...)")
 
-    __delattr__ = __setattr__  # type: ignore[assignment]
-
-    def __getitem__(self, key: str) -> int | float | str:
+    def __getitem__(self, key: str) -> Any:
         return self._values[key]
 
     def __iter__(self) -> Iterator[str]:
@@ -77,7 +74,7 @@ class Scene(Mapping[str, object]):
     def __hash__(self) -> int:
         return hash((tuple(self._values.items()), self.props))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple:
         return _restore, (dict(self._values), self.props)
 
     def __repr__(self) -> str:
@@ -151,7 +148,7 @@ def _checked_text(setting: ports.Setting, value: object) -> str:
 def _checked_props(props: Iterable[float]) -> tuple[float, ...]:
     if isinstance(props, str | bytes) or not isinstance(props, Iterable):
         raise SceneError(f"props = {props!r}; expected a sequence of real numbers")
-    checked = []
+    checked: list[float] = []
     for index, value in enumerate(props):
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             raise SceneError(f"props[{index}] = {value!r}; expected a real number")

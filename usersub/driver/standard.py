@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class StandardDriver(Driver):
 
     kind = "standard"
     interfaces = ("fric", "fric_coef")
-    _c_call = lib.usub_iterate
+    _c_call = "usub_iterate"
 
     def begin_increment(
         self,
@@ -73,9 +73,8 @@ class StandardDriver(Driver):
         if arrays:
             self.bind(**arrays)
         found = self._finish(lib.usub_iterate(self._handle))
-        results = [self._result(name) for name in _OUTPUTS]
-        pnewdt = lib.usub_pnewdt(self._handle)
-        return StandardResponse(*results, pnewdt, found > 0)  # type: ignore[arg-type]
+        results: dict[str, Any] = {name: self._result(name) for name in _OUTPUTS}
+        return StandardResponse(**results, pnewdt=lib.usub_pnewdt(self._handle), cut_back=found > 0)
 
     def commit(self) -> None:
         """Accepts the last iteration: its end values are the start values of the next increment."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The laws that are shipped: what each takes, behind which interfaces it stands, where its files lie.
+"""The laws that are shipped: what each takes, behind which interfaces it stands, where it lies.
 
 Equation, symbols, limits and source of a law stand in the README of its folder.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ __all__ = ["LANGUAGES", "LAWS", "Law", "law", "load", "path", "routine"]
 #: File of a law by language.
 LANGUAGES = {"python": "law.py", "c": "law.c", "fortran": "law.f90"}
 
-#: Interfaces by how a routine behind them may be built.
+#: Interfaces that can carry a shear traction that is no coefficient times pressure.
 _TRACTION = ("fric", "vfric", "vfriction")
 
 
@@ -156,8 +157,9 @@ def path(name: str, language: str) -> Path:
     return file
 
 
+@cache
 def load(name: str, language: str = "python", *, precision: str = "double") -> RoutineFile:
-    """The routines of a law in one language, by interface.
+    """The routines of a law in one language, by interface; compiled once in a process.
 
     Raises:
         LoadError: unknown law or language.

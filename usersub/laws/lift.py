@@ -23,7 +23,7 @@ import math
 from collections.abc import Callable
 
 from usersub.laws.lift_fric import coefficient_fric, traction_fric
-from usersub.routine.python import PythonRoutine, fric, fric_coef, vfric, vfric_coef, vfriction
+from usersub.routine.python import PythonRoutine, fric_coef, vfric, vfric_coef, vfriction
 
 __all__ = ["coefficient_law", "exp_decay", "jitable", "traction_law"]
 
@@ -33,11 +33,11 @@ _EXP_LEAST = math.exp(-_EXP_BOUND)
 
 _VARIABLES = ("slip_rate", "pressure", "temperature")
 
-#: Arguments that are left out where a law does not read the variable.
+#: Arguments that are left out where a law does not read the slip rate, pressure, temperature.
 _FETCHED = {
     "fric": ((), (), ("TEMP",)),
-    "fric_coef": (("slipData",), ("pressure",), ("tempAvg",)),
-    "fric_coef legacy": (("slipRate",), ("pressure",), ("tempAvg",)),
+    "fric_coef": (("slipRate",), ("pressure",), ("tempAvg",)),
+    "fric_coef_2022": (("slipData",), ("pressure",), ("tempAvg",)),
     "vfric": (("dSlipFric",), ("areaSec", "jConSecid"), ("tempSec", "tempMain")),
     "vfriction": (("dSlipFric", "rData"), ("areaCont",), ("tempSec", "tempMain")),
     "vfric_coef": (("slipRate",), ("pressure",), ("tempAvg",)),
@@ -81,10 +81,7 @@ class _Law:
     def finish(self, routine: PythonRoutine) -> PythonRoutine:
         """Names the routine after the law and leaves out what the law does not read."""
         face, uses = routine.interface, list(routine.uses)
-        key = face.name if face.name != "fric_coef" or face.generation == "2022" else (
-            "fric_coef legacy"
-        )
-        for read, names in zip(self.reads, _FETCHED[key], strict=True):
+        for read, names in zip(self.reads, _FETCHED[face.key], strict=True):
             for name in () if read else names:
                 if not (self.traction and name in ("areaSec", "jConSecid", "areaCont")):
                     uses[face.position(name)] = 0

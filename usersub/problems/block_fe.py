@@ -6,8 +6,8 @@ at once, so that no vertical oscillation disturbs the contact pressure. Each inc
 
 1. nodal forces: pressure, elasticity, stiffness-proportional damping (a tenth of critical at the
    highest frequency; it has no resultant), penalty contact in the normal direction;
-2. predicted velocities, and from them the predicted slip and the stick force m |v_t|/dt of each
-   contact node (kinematic enforcement);
+2. predicted velocities, and from them the slip and the stick force m |v_t|/dt of each contact
+   node (kinematic enforcement);
 3. friction from the driver, velocities, displacements.
 
 The block has stopped when its mean velocity first reaches zero (linear between increments), and the
@@ -24,7 +24,7 @@ import numpy as np
 from usersub import stick_force_kinematic
 from usersub.problems.block import Block, Stop
 from usersub.problems.elements import Mesh
-from usersub.problems.explicit_contact import ExplicitContact
+from usersub.problems.explicit_contact import ExplicitContact, mean_slip
 
 #: Damping at the highest frequency over critical damping.
 _DAMPING = 0.1
@@ -74,6 +74,7 @@ class FiniteElementBlock:
         normal[1] = 1.0
         mean = np.zeros_like(self.load)
         mean[0::d] = mesh.mass / mesh.mass.sum()
+        friction = np.zeros_like(normal)
         u, v, t = self.displacement.copy(), np.zeros_like(self.load), 0.0
         v[0::d] = before = self.block.velocity
         start = float(mean @ u)
@@ -82,13 +83,15 @@ class FiniteElementBlock:
             pressed = self.penalty * np.maximum(0.0, -u[self.normal_dof])
             force = self.load - self.stiffness @ (u + self.damping * v)
             force[self.normal_dof] += pressed
-            v += h * force / self.mass
             nodal = v.reshape(-1, d)
+            last = nodal[mesh.bottom].T
+            v += h * force / self.mass
             sliding = np.asfortranarray(nodal[mesh.bottom].T)
-            sliding[1] = 0.0
+            last[1] = sliding[1] = 0.0
             stick = stick_force_kinematic(sliding, normal, bottom_mass, h)
             contact.move((mesh.coordinates + u.reshape(-1, d))[mesh.bottom].T, sliding)
-            friction = contact.force(sliding * h, pressed, stick, h, t + h)
+            slip = mean_slip(last, sliding, friction, bottom_mass, h)
+            friction = contact.force(slip, pressed, stick, h, t + h)
             nodal[mesh.bottom] += (h * friction / bottom_mass).T
             now, here = float(mean @ v), float(mean @ u) - start
             if history is not None:

@@ -18,7 +18,6 @@ runs with doubled numbers of increments.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +29,7 @@ from usersub.problems.rigid import contact_areas
 if TYPE_CHECKING:
     from usersub.routine.routine import Routine
 
-#: Numbers of increments of the Romberg sequence, as parts of the last one.
+#: Runs of the Romberg sequence, each with twice the increments of the one before.
 _ROMBERG_LEVELS = 4
 
 _NEWTON_LIMIT = 20
@@ -46,7 +45,7 @@ class ImplicitBlock:
     def __init__(self, block: Block, routine: Routine, props: list[float], points: int) -> None:
         from usersub import Scene, StandardDriver
 
-        self.block, self.points, self.watch = block, points, Stopwatch()
+        self.block, self.points = block, points
         self.area = contact_areas(block, points)
         self.allowable = 0.005 * block.height
         scene = Scene(
@@ -62,6 +61,7 @@ class ImplicitBlock:
         self.iterations = self.increments = 0
         self._load()
         self.start = self.driver.state.save()
+        self.watch = Stopwatch()
 
     def _load(self) -> None:
         """Closes the contact, then slips elastically to the limit."""
@@ -92,18 +92,19 @@ class ImplicitBlock:
         self.increments += 1
         return 2.0 * dx / dt - v, dx
 
-    def slide(self, time: float, count: int, rows: list | None = None) -> tuple[float, float, float]:
-        """`count` increments up to `time`: velocity, distance, friction stress at the end."""
+    def slide(
+        self, time: float, count: int, rows: list | None = None
+    ) -> tuple[float, float, float]:
+        """`count` increments up to `time`: velocity, distance, friction force at the end."""
         self.driver.state.load(self.start)
         v, x, dt = self.block.velocity * _DIRECTION, np.zeros(2), time / count
         for i in range(count):
             v, dx = self.increment(v, dt)
             x = x + dx
+            force = float(_DIRECTION @ (self.driver.array("tau") @ self.area))
             if rows is not None:
-                force = float(_DIRECTION @ (self.driver.array("tau") @ self.area))
                 rows.append(((i + 1) * dt, float(_DIRECTION @ x), float(_DIRECTION @ v), force))
-        stress = float(_DIRECTION @ (self.driver.array("tau") @ self.area))
-        return float(_DIRECTION @ v), float(_DIRECTION @ x), stress
+        return float(_DIRECTION @ v), float(_DIRECTION @ x), force
 
     def stop(self, guess: float, count: int, rows: list | None = None) -> Stop:
         """Time and distance at rest after `count` equal increments."""
@@ -118,39 +119,22 @@ class ImplicitBlock:
             self.slide(time, count, rows)
         return Stop(time, x)
 
-
-def run(
-    block: Block,
-    exact: Stop,
-    props: list[float],
-    routine: Routine,
-    method: str,
-    points: int,
-    steps: int,
-    rows: list | None,
-) -> tuple[Stop, Stopwatch, float, dict[str, float]]:
-    """One run: stop, stopwatch, time increment, Newton iterations an increment and orders."""
-    host = ImplicitBlock(block, routine, props, points)
-    # Any sensible guess does; this one is too early, so that no trial run reverses the block.
-    guess = 0.9 * exact.time
-    if method == "implicit":
-        stop = host.stop(guess, steps, rows)
-    else:
-        counts = [steps >> level for level in reversed(range(_ROMBERG_LEVELS))]
-        stops = []
-        for count in counts:
-            stops.append(host.stop(stops[-1].time if stops else guess, count))
-        stop = Stop(*(_romberg([s[i] for s in stops]) for i in range(2)))
-    details = {"newton_iterations": host.iterations / host.increments}
-    return stop, host.watch, exact.time / steps, details
+    def extrapolated_stop(self, guess: float, count: int, rows: list | None = None) -> Stop:
+        """Extrapolates from runs of up to `count` increments."""
+        stops: list[Stop] = []
+        for level in reversed(range(_ROMBERG_LEVELS)):
+            last = level == 0
+            guess = stops[-1].time if stops else guess
+            stops.append(self.stop(guess, max(1, count >> level), rows if last else None))
+        return Stop(_romberg([s.time for s in stops]), _romberg([s.distance for s in stops]))
 
 
 def _romberg(values: list[float]) -> float:
-    """Extrapolates results of 1, 2, 4, ... times as many increments, error even in the increment."""
+    """Extrapolates results of 1, 2, 4, ... times as many increments; only even powers of dt."""
     for level in range(1, len(values)):
         factor = 4.0**level
         values = [
             fine + (fine - coarse) / (factor - 1.0)
             for coarse, fine in zip(values, values[1:], strict=False)
         ]
-    return values[0] if math.isfinite(values[0]) else math.nan
+    return values[0]

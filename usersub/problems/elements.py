@@ -112,7 +112,8 @@ def hexahedra(block: Block) -> Mesh:
     """Two one-point hexahedra along the block, with hourglass control (C3D8R)."""
     count = 2
     along = np.linspace(0.0, block.length, count + 1)
-    x = np.array([[a, y, z] for y in (0.0, block.height) for z in (0.0, block.width) for a in along])
+    sides = [(y, z) for y in (0.0, block.height) for z in (0.0, block.width)]
+    x = np.array([[a, y, z] for y, z in sides for a in along])
 
     def node(i: int, j: int, k: int) -> int:
         return (2 * j + k) * (count + 1) + i

@@ -57,7 +57,6 @@ class ExplicitContact:
         self.general = routine.interface.name != "vfric"
         self.dimension = 3 if self.general else self.host_dimension
         self.real = _DTYPES[precision]
-        self.watch = Stopwatch()
         n = self.points
         corners = 1 if contact == ANALYTICAL else 2 ** (self.dimension - 1)
         sizes = (
@@ -71,6 +70,7 @@ class ExplicitContact:
         )  # fmt: skip
         self.driver: ExplicitDriver = ExplicitDriver(routine, scene, reuse=True)
         self._bind(contact, corners, coordinates, np.asarray(area))
+        self.watch = Stopwatch()
 
     def _bind(self, contact: str, corners: int, coordinates: np.ndarray, area: np.ndarray) -> None:
         n, d, real = self.points, self.dimension, self.real
@@ -142,3 +142,30 @@ class ExplicitContact:
         with self.watch:
             response = self.driver.step(time_increment, step_time=time, total_time=time)
         return response.force[: self.host_dimension].astype(float)
+
+
+def mean_slip(
+    before: np.ndarray,
+    predicted: np.ndarray,
+    last_friction: np.ndarray,
+    mass: np.ndarray,
+    time_increment: float,
+) -> np.ndarray:
+    """Slip increments that the routine is told, along the predicted velocity.
+
+    The predicted velocity lacks the friction that is asked for; a slip rate made of it lags behind
+    and a coefficient that depends on it is of first order in time. With the friction of the last
+    increment the rate becomes the mean of the increment's two velocities, of second order.
+
+    Args:
+        before: velocities of the last increment, shape (dimension, points).
+        predicted: velocities without the friction of this increment.
+        last_friction: friction of the last increment.
+        mass: of each contact point.
+    """
+    speed = np.linalg.norm(predicted, axis=0)
+    middle = 0.5 * (before + predicted + time_increment * last_friction / mass)
+    along = np.einsum("ij,ij->j", middle, predicted)
+    share = np.divide(along, speed**2, out=np.ones_like(speed), where=speed > 0.0)
+    # At rest nothing but the direction counts, and that is the predicted one.
+    return predicted * (time_increment * np.clip(share, 1e-3, 1.0))

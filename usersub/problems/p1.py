@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from usersub.problems.block import Block, Stop
-from usersub.problems.blockruns import METHODS, OPTIONS, run_block
+from usersub.problems.block_runs import METHODS, OPTIONS, BlockRun
 from usersub.problems.problem import Outcome, Problem
 
 if TYPE_CHECKING:
@@ -25,9 +25,8 @@ def exact() -> Stop:
 
 def run(routine: Routine, law: str, precision: str, method: str, **options: object) -> Outcome:
     """One run. The rigid block is exact in every method, up to rounding."""
-    return run_block(
-        "P1", BLOCK, exact(), [MU], routine, law, precision, method, 1e-9, **options
-    )
+    made = BlockRun("P1", BLOCK, exact(), [MU], 1e-9, routine, law, precision, method, **options)
+    return made.outcome()
 
 
 PROBLEM = Problem(

@@ -21,9 +21,7 @@ INCREMENTS = (1.0, 1.0, 0.125, 7.0, 1.0)
 _NEWTON_LIMIT = 10
 
 
-def run(
-    routine: Routine, law: str, precision: str, method: str, *, points: int = 64
-) -> Outcome:
+def run(routine: Routine, law: str, precision: str, method: str, *, points: int = 64) -> Outcome:
     """Newton for the slip of each increment; slip and tangent against the exact ones."""
     from usersub import Scene, StandardDriver
 
@@ -49,7 +47,8 @@ def run(
             residual = response.tau - wanted
             if np.abs(residual).max() <= 1e-14 * TRACTION:
                 break
-            dgam -= np.einsum("kab,bk->ak", np.linalg.inv(response.ddtddg.T).transpose(0, 2, 1), residual)
+            tangents = np.moveaxis(response.ddtddg, -1, 0)
+            dgam -= np.linalg.solve(tangents, residual.T[:, :, None])[:, :, 0].T
         exact_slip, exact_tangent = CREEP * wanted * dt, 1.0 / (CREEP * dt)
         tangent = response.ddtddg - exact_tangent * np.eye(2)[:, :, None]
         error = max(

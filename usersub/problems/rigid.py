@@ -5,8 +5,8 @@ The block rests on several contact points of unequal area, which share its weigh
 
 `central_differences` is the scheme of explicit solvers: the force of an increment is bounded by the
 stick force m |v|/dt of the predicted velocity, so that the last increment ends at rest. With a
-constant force it is exact; with a force that depends on the slip rate, which is that of the
-predicted velocity, it is of first order.
+constant force it is exact; with a force that depends on the slip rate (see `mean_slip`) it is of
+second order.
 
 `runge_kutta` takes classical fourth-order steps in time and a last one with the velocity as
 independent variable (Henon's step), by Gauss quadrature, which ends exactly at rest.
@@ -20,10 +20,10 @@ import numpy as np
 
 from usersub import stick_force_kinematic
 from usersub.problems.block import Block, Stop
-from usersub.problems.explicit_contact import ExplicitContact
+from usersub.problems.explicit_contact import ExplicitContact, mean_slip
 
-#: Friction force of the whole block at a velocity: force(velocity, time_increment, time).
-Force = Callable[[float, float, float], float]
+#: Friction force of the whole block: force(velocity, slip, time_increment, time).
+Force = Callable[[float, float, float, float], float]
 
 #: Gauss points of the last step of `runge_kutta`.
 _GAUSS_POINTS = 6
@@ -46,7 +46,7 @@ def contact_coordinates(block: Block, points: int, dimension: int) -> np.ndarray
 
 
 def friction_of(block: Block, contact: ExplicitContact, direction: np.ndarray) -> Force:
-    """Friction force of the block along `direction`, as a function of its velocity."""
+    """Friction force of the block along `direction`, by predicted velocity and told slip."""
     area = np.asarray(contact.arrays["area"], float)
     area *= block.area / area.sum()
     normal_force = block.pressure * area
@@ -55,11 +55,12 @@ def friction_of(block: Block, contact: ExplicitContact, direction: np.ndarray) -
     normal[1] = 1.0
     ones = np.ones(contact.points)
 
-    def force(velocity: float, time_increment: float, time: float) -> float:
+    def force(velocity: float, slip: float, time_increment: float, time: float) -> float:
         speed = np.asfortranarray(np.outer(direction * velocity, ones))
         stick = stick_force_kinematic(speed, normal, mass, time_increment)
-        slip = speed * time_increment
-        return float(-direction @ contact.force(slip, normal_force, stick, time_increment, time).sum(1))
+        slips = np.outer(direction * slip, ones)
+        friction = contact.force(slips, normal_force, stick, time_increment, time)
+        return float(-direction @ friction.sum(1))
 
     return force
 
@@ -68,23 +69,22 @@ def central_differences(
     block: Block, force: Force, time_increment: float, history: list | None = None
 ) -> Stop:
     """Explicit central differences until the stick force bounds the friction."""
-    x, v, t = 0.0, block.velocity, 0.0
+    x, v, t, m = 0.0, block.velocity, 0.0, block.mass
     h = 0.5 * time_increment  # the first increment takes the velocity to the middle of the step
-    before = np.inf
+    before = 0.0
     while True:
-        now = force(v, h, t + h)
-        stopped = now < before and now * h >= v * block.mass * (1.0 - 1e-6)
-        if stopped:
+        slip = mean_slip(*(np.array([[a]]) for a in (v, v, -before)), np.array([m]), h)
+        now = force(v, float(slip[0, 0]), h, t + h)
+        if now * h >= v * m * (1.0 - 1e-6):
             break
-        v -= now * h / block.mass
+        v -= now * h / m
         x += v * time_increment
         t += time_increment
         before, h = now, time_increment
         if history is not None:
             history.append((t, x, v, now))
     # The bound took the share `now/before` of the last increment, counted from where v belongs.
-    start = t - 0.5 * time_increment if t > 0.0 else 0.0
-    deceleration = before / block.mass
+    start, deceleration = t - 0.5 * time_increment, before / m
     at_start = x - 0.5 * v * time_increment + 0.125 * deceleration * time_increment**2
     rest = h * now / before
     return Stop(start + rest, at_start + 0.5 * v * rest)
@@ -96,15 +96,15 @@ def runge_kutta(
     """Fourth-order steps in time, the last one over the velocity."""
     x, v, t, dt, m = 0.0, block.velocity, 0.0, time_increment, block.mass
     while True:
-        a = force(v, dt, t) / m
+        a = force(v, v * dt, dt, t) / m
         if v <= _INCREMENTS_LEFT * a * dt:
             break
         v2 = v - 0.5 * dt * a
-        a2 = force(v2, dt, t) / m
+        a2 = force(v2, v2 * dt, dt, t) / m
         v3 = v - 0.5 * dt * a2
-        a3 = force(v3, dt, t) / m
+        a3 = force(v3, v3 * dt, dt, t) / m
         v4 = v - dt * a3
-        a4 = force(v4, dt, t) / m
+        a4 = force(v4, v4 * dt, dt, t) / m
         x += dt * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
         v -= dt * (a + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
         t += dt
@@ -114,8 +114,9 @@ def runge_kutta(
     time, distance = t, x
     for node, weight in zip(nodes, weights, strict=True):
         u = 0.5 * v * (node + 1.0)
-        # A small increment, in which the stick force stays well above the friction.
-        inverse = m / force(u, u / (4.0 * a), t)
+        # In a short increment the stick force stays well above the friction.
+        short = u / (4.0 * a)
+        inverse = m / force(u, u * short, short, t)
         time += 0.5 * v * weight * inverse
         distance += 0.5 * v * weight * u * inverse
-    return Stop(time, distance)
+    return Stop(float(time), float(distance))

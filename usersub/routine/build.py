@@ -14,7 +14,7 @@ from usersub.routine import cache, compilers, debuginfo, objects
 from usersub.routine.support import Support
 
 #: Version of what is stored of a build; part of every key.
-RECORD = "3"
+RECORD = "4"
 _UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
 
 

@@ -44,7 +44,9 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
         # The preprocessed text covers every include file; names in it are relative to the source.
         # It is compiled itself, because arguments that come out of one macro share a place.
         plain = folder / ("plain.i" if language == "c" else "plain.ii")
-        outcome = compilers.run([*command, "-E", source.name, "-o", str(plain)], source.parent)
+        # Without -g, which would put the working folder into the text and so into the key.
+        expand = [word for word in command if word != "-g"]
+        outcome = compilers.run([*expand, "-E", source.name, "-o", str(plain)], source.parent)
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
         parts = (compiler.version, *chosen, *base.link_flags, source.name)

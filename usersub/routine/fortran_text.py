@@ -151,12 +151,14 @@ _TYPED = re.compile(
 )
 
 
-def _opens(code: str) -> tuple[str, str] | None:
+def _opens(statement: Statement) -> tuple[str, str] | None:
     """(kind, name) of the program unit that this statement begins, or None."""
-    found = _PROCEDURE.match(code)
-    if found and not _is_assignment(found[3]):
+    found = _PROCEDURE.match(statement.code)
+    # `INTEGER FUNCTIONS(3)` declares an array.
+    word = found and (found[1] == "subroutine" or re.search(r"\bfunction\b", statement.text))
+    if found and word and not _is_assignment(found[3]):
         return found[1], found[2]
-    found = _OTHER.match(code)
+    found = _OTHER.match(statement.code)
     if found and not found[2].startswith("procedure") and (found[2] or found[1] == "blockdata"):
         return found[1].split("(")[0], found[2]
     return None
@@ -181,7 +183,7 @@ def units(text: str, free: bool, file: str) -> list[Unit]:
     open_units: list[Unit] = []
     interfaces = 0
     for statement in statements(text, free, file):
-        opened = None if interfaces else _opens(statement.code)
+        opened = None if interfaces else _opens(statement)
         if opened:
             unit = Unit(*opened, statement.file, statement.line)
             found.append(unit)

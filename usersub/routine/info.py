@@ -114,7 +114,7 @@ def info(thing: Routine | RoutineFile | str | os.PathLike[str], precision: str =
         return Info(str(file.path), file.language, "", "", (), "", routines, (), (), (), (), False)
     build = file.code.build(file.precision)
     plain = {f: f.removesuffix("_") for f in build.functions}
-    others = sorted(n for n in plain.values() if n not in abi.NAMES)
+    others = sorted(n for n in plain.values() if n not in abi.NAMES and "_MOD___" not in n)
     return Info(
         path=str(file.path),
         language=file.language,

@@ -174,7 +174,8 @@ class Code:
         """Address of a function by its name, with or without the underscore, in any case."""
         loaded, build = self.loaded(precision), self.build(precision)
         known = {f.lower(): f for f in build.functions}
-        for candidate in (name.lower() + "_", name.lower()):
+        plain = name.lower().removesuffix("_")
+        for candidate in (plain + "_", plain):
             if candidate in known:
                 return library.address(loaded, known[candidate])
         names = ", ".join(f.removesuffix("_") for f in build.functions)

@@ -25,6 +25,9 @@ Receiver = Callable[[int, str], None]
 
 _PREFIX = {1: "", -1: "warning: ", -2: "error: ", -3: "fatal error: "}
 _UNITS = (6, 7)
+#: What a unit is connected to, by `usub_unit_flush`: nothing (0), our file, a file that the routine
+#: opened, `fort.7` in the working directory.
+_OWN, _OTHER, _LITTER = 1, 2, 3
 #: A unit's file starts again at this size.
 _LARGEST = 1 << 22
 
@@ -41,18 +44,36 @@ subroutine usub_unit_open(unit, path, length, state) bind(c)
   end do
   open (unit=unit, file=name, form='formatted', status='old', action='readwrite', iostat=state)
 end subroutine
-integer(c_int) function usub_unit_flush(unit, again) bind(c)
+integer(c_int) function usub_unit_flush(unit, path, length) bind(c)
   use iso_c_binding
-  integer(c_int), value :: unit, again
+  integer(c_int), value :: unit, length
+  character(kind=c_char), intent(in) :: path(*)
+  character(len=4096) :: name
   logical :: connected
+  integer :: i
   inquire (unit=unit, opened=connected)
   usub_unit_flush = 0
-  if (connected) then
-    flush (unit)
-    if (again /= 0) rewind (unit)
-    usub_unit_flush = 1
-  end if
+  if (.not. connected) return
+  flush (unit)
+  inquire (unit=unit, name=name)
+  usub_unit_flush = 1
+  if (len_trim(name) /= length) usub_unit_flush = 2
+  do i = 1, min(length, len(name))
+    if (name(i:i) /= path(i)) usub_unit_flush = 2
+  end do
+  if (index(name, 'fort.', back=.true.) == max(1, len_trim(name) - 5) .and. &
+      usub_unit_flush == 2) usub_unit_flush = 3
 end function
+subroutine usub_unit_again(unit) bind(c)
+  use iso_c_binding
+  integer(c_int), value :: unit
+  rewind (unit)
+end subroutine
+subroutine usub_unit_delete(unit) bind(c)
+  use iso_c_binding
+  integer(c_int), value :: unit
+  close (unit, status='delete')
+end subroutine
 """
 
 
@@ -119,27 +140,32 @@ class _Unit:
         self._open()
 
     def _open(self) -> None:
-        handle, name = tempfile.mkstemp(prefix="usersub-unit-")
+        self._handle, name = tempfile.mkstemp(prefix="usersub-unit-")
+        self._path, self._at, self._owner = os.fsencode(name), 0, os.getpid()
         state = ctypes.c_int(0)
-        path = os.fsencode(name)
-        self._helper.usub_unit_open(self._number, path, len(path), ctypes.byref(state))
+        self._helper.usub_unit_open(
+            self._number, self._path, len(self._path), ctypes.byref(state)
+        )
         os.unlink(name)
-        self._handle, self._at, self._owner = handle, 0, os.getpid()
 
     def lines(self) -> list[str]:
         """Lines that are new since the last time."""
-        again = self._at > _LARGEST
-        connected = self._helper.usub_unit_flush(self._number, 0)
-        data = self._rest + os.pread(self._handle, 1 << 30, self._at)
-        self._at += len(data) - len(self._rest)
-        if not connected or self._owner != os.getpid():
+        found = self._helper.usub_unit_flush(self._number, self._path, len(self._path))
+        data = os.pread(self._handle, 1 << 30, self._at)
+        self._at += len(data)
+        if found == _OWN and self._owner == os.getpid():
+            if self._at > _LARGEST:
+                self._helper.usub_unit_again(self._number)
+                os.ftruncate(self._handle, 0)
+                self._at = 0
+        elif found != _OTHER:
+            # The routine closed the unit (and perhaps wrote on), or this is a forked child.
+            if found == _LITTER:
+                data += Path(f"fort.{self._number}").read_bytes()
+                self._helper.usub_unit_delete(self._number)
             os.close(self._handle)
             self._open()
-        elif again:
-            self._helper.usub_unit_flush(self._number, 1)
-            os.ftruncate(self._handle, 0)
-            self._at = 0
-        *whole, self._rest = data.split(b"\n")
+        *whole, self._rest = (self._rest + data).split(b"\n")
         return [line.decode("utf-8", "replace") for line in whole]
 
 

@@ -17,7 +17,8 @@ _UNIT_CALLS = ("_gfortran_st_write", "_gfortran_st_read", "_gfortran_st_open")
 _HARMLESS = re.compile(
     r"^(DW\.ref\..*|_ZStL8__ioinit|_ZT[VISC].*|_ZGV.*|completed\.\d+|__dso_handle|__TMC_END__"
     r"|_DYNAMIC|_GLOBAL_OFFSET_TABLE_|__bss_start|_edata|_end|__frame_dummy_init_array_entry"
-    r"|__do_global_dtors_aux_fini_array_entry|options\.\d+)$"
+    r"|__do_global_dtors_aux_fini_array_entry|options\.\d+"
+    r"|(?:__\w+_MOD_)?__(?:def_init|vtab)_.*)$"
 )
 # Sections that the loader writes once and the code never.
 _FIXED = (".data.rel.ro", ".init_array", ".fini_array", ".dynamic", ".got", ".ctors", ".dtors",

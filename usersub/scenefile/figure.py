@@ -13,7 +13,7 @@ from usersub.errors import MissingTool, SceneError
 from usersub.scenefile.results import Columns, HistoryResult
 
 _LINES = 8
-_UNITS = "units as given by the user's unit system"
+_UNITS = "units are given by the user's unit system"
 
 
 def require() -> None:
@@ -38,6 +38,7 @@ def draw(history: HistoryResult | Columns, path: Path) -> None:
         _draw_columns(figure, history)
     else:
         _draw_points(figure, history)
+    figure.supxlabel(_UNITS, fontsize="small")
     try:
         figure.savefig(path, dpi=150)
     except OSError as error:
@@ -54,10 +55,10 @@ def _draw_points(figure: Any, history: HistoryResult) -> None:
         tau = columns["tau"][:, point, direction]
         against_slip.plot(columns["slip"][:, point, direction], tau, label=label)
         against_time.plot(columns["time"], tau, label=label)
-    against_slip.set_xlabel(f"slip (length, {_UNITS})")
-    against_time.set_xlabel(f"time ({_UNITS})")
+    against_slip.set_xlabel("slip [length]")
+    against_time.set_xlabel("time [time]")
     for axes in (against_slip, against_time):
-        axes.set_ylabel(f"friction stress ({_UNITS})")
+        axes.set_ylabel("friction stress [stress]")
         axes.grid(alpha=0.3)
     if len(lines) > 1:
         against_time.legend(fontsize="small")
@@ -70,7 +71,7 @@ def _draw_columns(figure: Any, history: Columns) -> None:
     first, *others = history.columns
     for axes, name in zip(np.ravel(figure.subplots(1, len(others))), others, strict=True):
         axes.plot(history.columns[first], history.columns[name])
-        axes.set_xlabel(f"{first} ({_UNITS})")
-        axes.set_ylabel(f"{name.replace('_', ' ')} ({_UNITS})")
+        axes.set_xlabel(first)
+        axes.set_ylabel(name.replace("_", " "))
         axes.grid(alpha=0.3)
     figure.suptitle(history.title)

@@ -90,7 +90,10 @@ def read(path: str | Path) -> SceneFile:
     if (history is None) == (problem is None):
         given = "neither" if history is None else "both"
         raise top.error(f"has {given} of the tables [history] and [problem], expected one of them")
-    if problem is None and routine is None and law is None:
+    settings = {} if scene is None else _settings(scene)
+    if problem is not None:
+        _only_problem(top, props, settings)
+    elif routine is None and law is None:
         raise top.error("needs the key 'routine': path of a routine file or name of a built-in law")
     return SceneFile(
         path=path,
@@ -100,7 +103,7 @@ def read(path: str | Path) -> SceneFile:
         generation=generation,
         language=language,
         props=None if props is None else tuple(map(float, props)),
-        settings={} if scene is None else _settings(scene),
+        settings=settings,
         history=None if history is None else take_history(history, path.parent),
         problem=None if problem is None else _problem(problem),
         output=Output() if output is None else _output(output, path.parent),
@@ -154,10 +157,40 @@ def _settings(table: Table) -> dict[str, Any]:
     return found
 
 
+#: Keys that a problem knows but that stand elsewhere in a scene file.
+_ELSEWHERE = {
+    "routine": "at the top of the file", "law": "at the top of the file, as 'routine',",
+    "interface": "at the top of the file", "language": "at the top of the file",
+    "precision": "in [scene]",
+}
+
+
+#: Kinds of the options that several problems have.
+_OPTIONS = {"method": "text", "points": "int", "steps": "int", "history": "truth"}
+
+
+def _only_problem(top: Table, props: list | None, settings: dict[str, Any]) -> None:
+    """Refuses what a problem itself decides."""
+    if props is not None:
+        raise top.error(f"props = {show(props)} has no place beside [problem], which sets its own")
+    others = sorted(set(settings) - {"precision"})
+    if others:
+        raise top.error(
+            f"[scene] {others[0]} = {show(settings[others[0]])} has no place beside [problem], "
+            "which makes its own scene; only 'precision' has"
+        )
+
+
 def _problem(table: Table) -> tuple[str, dict[str, Any]]:
     """Name and options of [problem]; the problem itself checks its options."""
     name = table.take("name", "text")
-    options = {k: table.take(k, "any") for k in table.data if k != "name"}
+    for key, place in _ELSEWHERE.items():
+        if table.has(key):
+            raise table.error(f"{key} = {show(table.data[key])} belongs {place}")
+    options = {k: table.take(k, _OPTIONS.get(k, "plain")) for k in table.data if k != "name"}
+    for key in ("points", "steps"):
+        if options.get(key, 1) < 1:
+            raise table.error(f"{key} = {options[key]} must be at least 1")
     return name, options
 
 

@@ -99,13 +99,22 @@ def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
 def _run_problem(scene_file: SceneFile) -> Run:
     from usersub import problems
 
-    name, options = scene_file.problem
-    for key in ("interface", "language"):
-        value = getattr(scene_file, key)
-        if value is not None:
-            options = {key: value, **options}
-    rows = problems.run(name, **options)
-    return Run(scene_file, problem=list(rows), ok=all(r.ok for r in rows))
+    name, given = scene_file.problem
+    options = {"precision": "double", **scene_file.settings, **given}
+    if scene_file.routine is not None:
+        options["routine"] = routine_of(scene_file)
+    else:
+        for key in ("law", "interface", "language"):
+            if getattr(scene_file, key) is not None:
+                options[key] = getattr(scene_file, key)
+    known = problems.PROBLEMS.get(name.upper())
+    if scene_file.output.files and known is not None and "history" in known.options:
+        options.setdefault("history", True)
+    try:
+        outcome = problems.run(name, **options)
+    except errors.SceneError as error:
+        raise errors.SceneError(f"{scene_file.path}: {error}") from error
+    return Run(scene_file, problem=[outcome], ok=outcome.ok)
 
 
 def _write(run: Run) -> None:

@@ -58,7 +58,8 @@ class Table:
 
         Args:
             key: name of the key.
-            kind: "int", "real", "text", "truth", "table", "numbers" (array of numbers) or "any".
+            kind: "int", "real", "text", "truth", "table", "numbers" (array of numbers),
+                "plain" (no array and no table) or "any".
             default: used where the file has no such key; without one the key is required.
             choices: what a text may be.
         """
@@ -112,6 +113,7 @@ _CHECKS = {
     "truth": lambda v: isinstance(v, bool),
     "table": lambda v: isinstance(v, dict),
     "numbers": lambda v: isinstance(v, list) and all(is_number(x) for x in v),
+    "plain": lambda v: is_number(v) or isinstance(v, (str, bool)),
     "any": lambda v: True,
 }
 
@@ -122,5 +124,6 @@ _WORDS = {
     "truth": "true or false",
     "table": "a table",
     "numbers": "an array of finite numbers",
+    "plain": "a finite number, text, true or false",
     "any": "any value",
 }

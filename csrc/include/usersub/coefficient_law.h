@@ -16,39 +16,44 @@ extern "C" {
 #endif
 
 void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
-  if (!USUB_EXPLICIT_PROPS("VFRIC_COEF")) return;
+  if (!USUB_EXPLICIT_PROPS("VFRIC_COEF"))
+    return;
   for (int k = 0; k < *nBlock; ++k) {
-    fCoef[k] = usub_law(USUB_RATE(slipRate[k]), USUB_PRESSURE(pressure[k]),
-                        USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : (usub_real)0), props, *nProps,
-                        NULL);
+    fCoef[k] =
+        usub_law(USUB_RATE(slipRate[k]), USUB_PRESSURE(pressure[k]),
+                 USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : (usub_real)0), props, *nProps, NULL);
   }
 }
 
 #ifndef USUB_SINGLE
 void FOR_NAME(fric_coef, FRIC_COEF)(USUB_FRIC_COEF_2022_PARAMETERS) {
   const int n = *nBlock;
-  if (!USUB_STANDARD_PROPS("FRIC_COEF", props, *nProps)) return;
+  if (!USUB_STANDARD_PROPS("FRIC_COEF", props, *nProps))
+    return;
   for (int k = 0; k < n; ++k) {
     double derivative[3] = {0, 0, 0};
-    fCoef[k] = usub_law(USUB_RATE(slipData[k]), USUB_PRESSURE(pressure[k]),
-                        USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : 0.0), props, *nProps, derivative);
-    for (int j = 0; j < 3; ++j) fCoefDeriv[k + (ptrdiff_t)n * j] = derivative[j];
+    fCoef[k] =
+        usub_law(USUB_RATE(slipData[k]), USUB_PRESSURE(pressure[k]),
+                 USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : 0.0), props, *nProps, derivative);
+    for (int j = 0; j < 3; ++j)
+      fCoefDeriv[k + (ptrdiff_t)n * j] = derivative[j];
   }
 }
 
-#define USUB_STATES_TEXT                                                                          \
+#define USUB_STATES_TEXT                                                                           \
   USUB_LAW " behind FRIC keeps its elastic slip in %I state variables, but the scene has %I."
 #define USUB_LENGTH_TEXT USUB_LAW " behind FRIC needs a characteristic length above zero."
 
-/* Penalty enforcement of the coefficient, isotropic: the elastic predictor is the elastic slip at the
- * start of the increment plus the motion; up to the allowable elastic slip the point sticks with
- * the stiffness strength/allowable, beyond it the rest is slip, along the predictor. The
+/* Penalty enforcement of the coefficient, isotropic: the elastic predictor is the elastic slip at
+ * the start of the increment plus the motion; up to the allowable elastic slip the point sticks
+ * with the stiffness strength/allowable, beyond it the rest is slip, along the predictor. The
  * derivatives are those of this update. */
 void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   const int n = *NFDIR;
   const double allowable = 0.005 * *CHRLNGTH, p = *PRESS > 0 ? *PRESS : 0;
   if (*LM == 2) { /* open so far: no friction in the increment that closes the point */
-    for (int a = 0; a < n && a < *NSTATV; ++a) STATEV[a] = 0;
+    for (int a = 0; a < n && a < *NSTATV; ++a)
+      STATEV[a] = 0;
     return;
   }
   if (!USUB_STANDARD_PROPS("FRIC", PROPS, *NPROPS) ||
@@ -62,18 +67,21 @@ void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
     elastic[0] = DROT[0] * STATEV[0] + DROT[2] * STATEV[1];
     elastic[1] = DROT[1] * STATEV[0] + DROT[3] * STATEV[1];
   }
-  for (int a = 0; a < n; ++a) elastic[a] += DGAM[a];
+  for (int a = 0; a < n; ++a)
+    elastic[a] += DGAM[a];
   const double length = usub_length(n, elastic), plastic = fmax(length - allowable, 0);
   const int slips = plastic > 0;
 
   /* stress = strength * direction, the direction being shorter than one in stick */
   const double reach = slips ? length : allowable;
-  const double mu = usub_law(USUB_RATE(usub_ratio(plastic, *DTIME)), p,
-                             USUB_TEMPERATURE(0.5 * (TEMP[0] + TEMP[1])), PROPS, *NPROPS, derivative);
+  const double mu =
+      usub_law(USUB_RATE(usub_ratio(plastic, *DTIME)), p,
+               USUB_TEMPERATURE(0.5 * (TEMP[0] + TEMP[1])), PROPS, *NPROPS, derivative);
   const double strength = mu * p, secant = strength / reach;
   const double by_pressure = p > 0 ? mu + p * derivative[1] : 0;
   const double along = slips ? p * usub_ratio(derivative[0], *DTIME) - secant : 0;
-  for (int a = 0; a < n; ++a) direction[a] = elastic[a] / reach;
+  for (int a = 0; a < n; ++a)
+    direction[a] = elastic[a] / reach;
 
   *SED = *SFD = 0;
   for (int a = 0; a < n; ++a) {

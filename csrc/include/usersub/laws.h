@@ -52,10 +52,10 @@ void xplb_exit_(void);
 #endif
 
 /* Opens the definition of the point function; below, its declaration. */
-#define USUB_LAW_FUNCTION                                                                         \
-  static usub_real usub_law(                                                                      \
-      USUB_MAY_BE_UNUSED const usub_real rate, USUB_MAY_BE_UNUSED const usub_real pressure,       \
-      USUB_MAY_BE_UNUSED const usub_real temperature, USUB_MAY_BE_UNUSED const usub_real *props,  \
+#define USUB_LAW_FUNCTION                                                                          \
+  static usub_real usub_law(                                                                       \
+      USUB_MAY_BE_UNUSED const usub_real rate, USUB_MAY_BE_UNUSED const usub_real pressure,        \
+      USUB_MAY_BE_UNUSED const usub_real temperature, USUB_MAY_BE_UNUSED const usub_real *props,   \
       USUB_MAY_BE_UNUSED const int count, USUB_MAY_BE_UNUSED usub_real *derivative)
 USUB_LAW_FUNCTION;
 
@@ -87,9 +87,13 @@ static inline usub_real usub_exp_decay(usub_real x) {
 #endif
 }
 
-static inline usub_real usub_abs(usub_real x) { return x < 0 ? -x : x; }
+static inline usub_real usub_abs(usub_real x) {
+  return x < 0 ? -x : x;
+}
 
-static inline usub_real usub_smaller(usub_real a, usub_real b) { return b < a ? b : a; }
+static inline usub_real usub_smaller(usub_real a, usub_real b) {
+  return b < a ? b : a;
+}
 
 /* Quotient, or zero where there is nothing to divide by. */
 static inline usub_real usub_ratio(usub_real numerator, usub_real denominator) {
@@ -109,13 +113,14 @@ static inline int usub_explicit_props(const char *text, size_t length, const usu
                                       int given) {
   const int level = -2, ints[2] = {usub_needed(props, given), given};
   const usub_real reals[1] = {0};
-  if (given >= ints[0]) return 1;
+  if (given >= ints[0])
+    return 1;
   xplb_abqerr_(&level, text, ints, reals, "        ", length, 8);
   xplb_exit_();
   return 0;
 }
-#define USUB_EXPLICIT_PROPS(interface)                                                            \
-  usub_explicit_props(USUB_PROPS_TEXT(interface), sizeof USUB_PROPS_TEXT(interface) - 1, props,   \
+#define USUB_EXPLICIT_PROPS(interface)                                                             \
+  usub_explicit_props(USUB_PROPS_TEXT(interface), sizeof USUB_PROPS_TEXT(interface) - 1, props,    \
                       *nProps)
 
 /* Friction force without the bound by the stick force: of a coefficient, or of a traction. */
@@ -126,32 +131,38 @@ static inline int usub_explicit_props(const char *text, size_t length, const usu
 #endif
 
 void FOR_NAME(vfric, VFRIC)(USUB_VFRIC_PARAMETERS) {
-  if (!USUB_EXPLICIT_PROPS("VFRIC")) return;
+  if (!USUB_EXPLICIT_PROPS("VFRIC"))
+    return;
   for (int i = 0; i < *nContact; ++i) {
-    if (!(fNormal[i] > 0)) continue;
-    const usub_real law = usub_law(
-        USUB_RATE(usub_ratio(usub_abs(dSlipFric[(ptrdiff_t)i * *nDir]), *dTimCur)),
-        USUB_PRESSURE(usub_ratio(fNormal[i], areaSec[jConSecid[i] - 1])),
-        USUB_TEMPERATURE(*nTemp > 0 ? (usub_real)0.5 * (tempSec[i] +
-                                                        tempMain[i < *numDefTfv ? i : *numDefTfv - 1])
-                                    : (usub_real)0),
-        props, *nProps, NULL);
+    if (!(fNormal[i] > 0))
+      continue;
+    const usub_real law =
+        usub_law(USUB_RATE(usub_ratio(usub_abs(dSlipFric[(ptrdiff_t)i * *nDir]), *dTimCur)),
+                 USUB_PRESSURE(usub_ratio(fNormal[i], areaSec[jConSecid[i] - 1])),
+                 USUB_TEMPERATURE(
+                     *nTemp > 0 ? (usub_real)0.5 *
+                                      (tempSec[i] + tempMain[i < *numDefTfv ? i : *numDefTfv - 1])
+                                : (usub_real)0),
+                 props, *nProps, NULL);
     fTangential[(ptrdiff_t)i * *nFricDir] =
         -usub_smaller(USUB_FORCE(law, fNormal[i], areaSec[jConSecid[i] - 1]), fStickForce[i]);
   }
 }
 
 void FOR_NAME(vfriction, VFRICTION)(USUB_VFRICTION_PARAMETERS) {
-  if (!USUB_EXPLICIT_PROPS("VFRICTION")) return;
+  if (!USUB_EXPLICIT_PROPS("VFRICTION"))
+    return;
   for (int k = 0; k < *nBlock; ++k) {
-    if (!(fNormal[k] > 0)) continue;
-    const usub_real law = usub_law(
-        USUB_RATE(usub_ratio(usub_abs(dSlipFric[(ptrdiff_t)k * *nDir]), rData[2])),
-        USUB_PRESSURE(usub_ratio(fNormal[k], areaCont[k])),
-        USUB_TEMPERATURE(*nTemp > 0 ? (usub_real)0.5 * (tempSec[k] +
-                                                        tempMain[k < *nBlockAnal ? k : *nBlockAnal - 1])
-                                    : (usub_real)0),
-        props, *nProps, NULL);
+    if (!(fNormal[k] > 0))
+      continue;
+    const usub_real law =
+        usub_law(USUB_RATE(usub_ratio(usub_abs(dSlipFric[(ptrdiff_t)k * *nDir]), rData[2])),
+                 USUB_PRESSURE(usub_ratio(fNormal[k], areaCont[k])),
+                 USUB_TEMPERATURE(
+                     *nTemp > 0 ? (usub_real)0.5 *
+                                      (tempSec[k] + tempMain[k < *nBlockAnal ? k : *nBlockAnal - 1])
+                                : (usub_real)0),
+                 props, *nProps, NULL);
     fTangential[(ptrdiff_t)k * *nFricDir] =
         -usub_smaller(USUB_FORCE(law, fNormal[k], areaCont[k]), fStickForce[k]);
   }
@@ -163,15 +174,16 @@ static inline int usub_standard_needs(int holds, const char *text, size_t length
                                       int second) {
   const int level = -3, ints[2] = {first, second};
   const double reals[1] = {0};
-  if (holds) return 1;
+  if (holds)
+    return 1;
   stdb_abqerr_(&level, text, ints, reals, "        ", length, 8);
   xit_();
   return 0;
 }
-#define USUB_STANDARD_NEEDS(holds, text, first, second)                                           \
+#define USUB_STANDARD_NEEDS(holds, text, first, second)                                            \
   usub_standard_needs(holds, text, sizeof(text) - 1, first, second)
-#define USUB_STANDARD_PROPS(interface, props, count)                                              \
-  USUB_STANDARD_NEEDS((count) >= usub_needed(props, count), USUB_PROPS_TEXT(interface),           \
+#define USUB_STANDARD_PROPS(interface, props, count)                                               \
+  USUB_STANDARD_NEEDS((count) >= usub_needed(props, count), USUB_PROPS_TEXT(interface),            \
                       usub_needed(props, count), count)
 
 /* Length of a vector of one or two components. */

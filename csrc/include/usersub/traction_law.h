@@ -21,7 +21,8 @@ extern "C" {
 void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   const int n = *NFDIR;
   double derivative[3] = {0, 0, 0};
-  if (*LM == 2) return; /* open so far: no friction in the increment that closes the point */
+  if (*LM == 2)
+    return; /* open so far: no friction in the increment that closes the point */
   if (!USUB_STANDARD_PROPS("FRIC", PROPS, *NPROPS) ||
       !USUB_STANDARD_NEEDS(*DTIME > 0, USUB_LAW " behind FRIC needs a time increment.", 0, 0))
     return;

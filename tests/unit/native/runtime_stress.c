@@ -16,14 +16,8 @@
 #include "pool.h"
 #include "usersub/usersub.h"
 
-/* QUICK is for valgrind, which runs one thread at a time. */
-#if defined(QUICK)
-enum { MOST = 20, THREADS = 5 };
-static const int32_t threads[] = {1, 3}, counts[] = {0, 2, 7};
-#else
 enum { MOST = 1000, THREADS = 5 };
 static const int32_t threads[] = {1, 2, 3, 7}, counts[] = {0, 1, 2, 3, 5, 7, 64, 999};
-#endif
 
 extern void xit_(void);
 extern int get_thread_id_(void);

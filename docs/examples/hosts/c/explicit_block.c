@@ -17,7 +17,6 @@
 #include <usersub/usersub.h>
 
 enum { POINTS = 5, MOST_PROPS = 20, MOST_INCREMENTS = 100000 };
-
 static const double density = 7.3e-4, volume = 5.0, contact_pressure = 2000.0, start_speed = 200.0;
 static const double time_increment = 1.0e-6;
 
@@ -43,7 +42,6 @@ static usub_scene *make_scene(const double *props, int32_t count) {
   usub_scene *scene;
   check(usub_scene_create(&scene), "no scene");
   check(usub_scene_set_int(scene, "points", POINTS), usub_scene_message(scene));
-  check(usub_scene_set_int(scene, "dimension", 3), usub_scene_message(scene));
   check(usub_scene_set_text(scene, "contact", "analytical-rigid"), usub_scene_message(scene));
   check(usub_scene_set_int(scene, "secondary_nodes", POINTS), usub_scene_message(scene));
   check(usub_scene_set_int(scene, "nodes", POINTS), usub_scene_message(scene));
@@ -99,16 +97,16 @@ static usub_driver *make_driver(const usub_routine *routine, const usub_scene *s
 
 /* 4. Increments: predict the slip, ask for the forces. Returns the force on the block. */
 static double step(usub_driver *driver, int32_t increment, double speed, double distance) {
+  const double time = increment * time_increment; /* at the end of the increment */
   for (int i = 0; i < POINTS; i++) {
     at.coord[i][0] = 0.5 + i + distance;
     at.velocity[i][0] = speed;
     at.slip_increment[i][0] = speed * time_increment; /* without friction */
   }
-  const double now = increment * time_increment;
   check(usub_stick_force_kinematic(POINTS, 3, at.velocity[0], at.normal[0], at.mass, time_increment,
                                    at.stick_force),
         "stick force");
-  check(usub_set_time(driver, 1, increment, now, now, time_increment), usub_message(driver));
+  check(usub_set_time(driver, 1, increment, time, time, time_increment), usub_message(driver));
   check(usub_step(driver), usub_message(driver));
   double force = 0;
   for (int i = 0; i < POINTS; i++)
@@ -118,16 +116,14 @@ static double step(usub_driver *driver, int32_t increment, double speed, double 
 
 int main(int count, char **arguments) {
   double props[MOST_PROPS] = {0.15};
-  if (count < 3 || count > 3 + MOST_PROPS) {
-    fprintf(stderr, "usage: %s LIBRARY INTERFACE [PROPERTY ...]\n", arguments[0]);
-    return EXIT_FAILURE;
-  }
+  if (count < 3 || count > 3 + MOST_PROPS)
+    check(USUB_BAD_ARGUMENT, "usage: explicit_block LIBRARY INTERFACE [PROPERTY ...]");
   for (int i = 3; i < count; i++)
     props[i - 3] = strtod(arguments[i], NULL);
 
+  place_points();
   usub_routine *routine = open_routine(arguments[1], arguments[2]);
   usub_scene *scene = make_scene(props, count > 3 ? count - 3 : 1);
-  place_points();
   usub_driver *driver = make_driver(routine, scene, arguments[2]);
 
   double time = 0, distance = 0, speed = start_speed, deceleration = 0;
@@ -143,9 +139,8 @@ int main(int count, char **arguments) {
     deceleration = change / time_increment;
   }
   /* The rest of the way, at the deceleration of the last full increment. */
-  time += speed / deceleration;
-  distance += 0.5 * speed * speed / deceleration;
-  printf("host=c interface=%s stop_time=%.16e stop_distance=%.16e\n", arguments[2], time, distance);
+  printf("host=c interface=%s stop_time=%.16e stop_distance=%.16e\n", arguments[2],
+         time + speed / deceleration, distance + 0.5 * speed * speed / deceleration);
 
   usub_driver_free(driver);
   usub_scene_free(scene);

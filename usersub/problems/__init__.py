@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""Problems with known answers, for tests, studies, documentation and `usersub demo` alike."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from usersub import laws
+from usersub.problems import p1, p2, p3, p4
+from usersub.problems.choose import one_of
+from usersub.problems.problem import KEYS, Outcome, Problem
+
+if TYPE_CHECKING:
+    from usersub.routine.routine import Routine
+
+__all__ = ["KEYS", "PROBLEMS", "Case", "Outcome", "Problem", "demo_cases", "run"]
+
+#: The problems by name.
+PROBLEMS: dict[str, Problem] = {p.PROBLEM.name: p.PROBLEM for p in (p1, p2, p3, p4)}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a problem through one of the shipped laws; making it costs nothing."""
+
+    problem: str
+    law: str
+    interface: str
+    language: str
+    precision: str
+    method: str
+    options: dict[str, object] = field(default_factory=dict)
+
+    def run(self) -> Outcome:
+        """Runs it; compilation is not part of its times.
+
+        Raises:
+            MissingTool: the compiler of the language is missing.
+        """
+        routine = laws.routine(self.law, self.interface, self.language, precision=self.precision)
+        return PROBLEMS[self.problem].run(
+            routine, law=self.law, precision=self.precision, method=self.method, **self.options
+        )
+
+
+def run(
+    name: str,
+    *,
+    interface: str | None = None,
+    language: str = "python",
+    law: str | None = None,
+    routine: Routine | None = None,
+    **options: object,
+) -> Outcome:
+    """Runs a problem by its name (any case), through a routine or through a shipped law.
+
+    Args:
+        routine: user code; `interface` and `language` are then its own.
+        options: `precision`, `method` and the options of the problem (`PROBLEMS[name].options`).
+
+    Raises:
+        SceneError: unknown problem, interface, method or option; the message names the nearest.
+    """
+    problem = PROBLEMS[one_of("problem", [name.upper()], PROBLEMS, "list")]
+    if routine is None:
+        interface = one_of(
+            "interface", [interface or problem.interfaces[0]], problem.interfaces, problem.name
+        )
+        language = one_of("language", [language], laws.LANGUAGES, problem.name)
+        law = one_of("law", [law or problem.laws[0]], problem.laws, problem.name)
+        precision = str(options.get("precision", "double"))
+        routine = laws.routine(law, interface, language, precision=precision)
+    return problem.run(routine, law=law, **options)  # type: ignore[arg-type]
+
+
+def _methods(problem: Problem, interface: str, quick: bool) -> Iterator[str]:
+    """Methods of the demo: where a refined one reaches rounding, the plain one is left out."""
+    for method in problem.methods[interface]:
+        refined = {"P1": (), "P2": ("rigid", "implicit")}.get(problem.name, ())
+        plain = {"P1": ("rigid rk4", "implicit Romberg")}.get(problem.name, ())
+        elements = method.startswith("C")
+        if method not in refined + plain and not (quick and elements and method != "C3D8R"):
+            yield method
+
+
+def demo_cases(quick: bool = False) -> list[Case]:
+    """Every problem through every interface, language and precision, in the order of printing.
+
+    Args:
+        quick: fewer finite-element runs.
+    """
+    return [
+        Case(problem.name, law, interface, language, precision, method)
+        for problem in PROBLEMS.values()
+        for law in problem.laws
+        for interface in problem.interfaces
+        for method in _methods(problem, interface, quick)
+        for language in laws.LANGUAGES
+        for precision in (("double", "single") if interface.startswith("v") else ("double",))
+    ]
