@@ -156,7 +156,8 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
     for (size_t k = 0; k < n; ++k) ((double *)call->argv[COEF])[n + k] = NAN;
   if (usub_is_live(driver, DERIV))
     memset(call->argv[DERIV], 0, n * real * (modern ? 2 * SLOTS_2022 : 3));
-  char reason[256] = "";
+  char reason[256];
+  reason[0] = 0; /* clearing all of it would cost as much as a small call */
   status = usub_call_guarded(driver, call, reason);
   const int32_t seen = look_later ? usub_check_inputs(driver, call, index, first) : USUB_OK;
   if (seen) return seen;

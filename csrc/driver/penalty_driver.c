@@ -155,6 +155,12 @@ int32_t usub_penalty_point(usub_driver *driver, usub_call *call, const usub_poin
                            int32_t index, int32_t p) {
   const usub_settings *set = &driver->set;
   const size_t F = (size_t)driver->size.F, i = (size_t)p;
+  /* The local directions have turned by `rotation` since the elastic slip was committed. */
+  double elastic[2] = {at->elastic_slip[i * F], F == 2 ? at->elastic_slip[i * F + 1] : 0};
+  if (at->rotation && F == 2) {
+    const double *turn = at->rotation + 4 * i, old[2] = {elastic[0], elastic[1]};
+    for (size_t a = 0; a < 2; ++a) elastic[a] = turn[a] * old[0] + turn[2 + a] * old[1];
+  }
   const usub_penalty_input input = {
       .directions = driver->size.F,
       .anisotropic = set->anisotropic,
@@ -164,7 +170,7 @@ int32_t usub_penalty_point(usub_driver *driver, usub_call *call, const usub_poin
                                    ? set->elastic_slip
                                    : set->slip_tolerance * set->characteristic_length,
       .shear_limit = set->shear_limit,
-      .elastic_slip = at->elastic_slip + i * F,
+      .elastic_slip = elastic,
       .slip = at->slip + i * F,
       .slip_increment = at->slip_increment + i * F,
       .equivalent_slip = at->equivalent_slip[i],

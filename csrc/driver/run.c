@@ -13,7 +13,7 @@ int32_t usub_call_routine(const usub_driver *driver, const usub_call *call) {
   const usub_entry entry = driver->routine.entry;
   void *const *argv = call->argv;
   if (driver->routine.style == USUB_STYLE_BLOCK)
-    return ((block_style)(void *)entry)((void **)(uintptr_t)argv);
+    return ((block_style)entry)((void **)(uintptr_t)argv);
   switch (usub_interface_key(driver->face) * 2 + driver->single) {
     case USUB_INTERFACE_FRIC * 2:
       usub_call_fric_d(entry, argv);
@@ -76,7 +76,7 @@ static void task(void *context, int32_t worker, int32_t index) {
 
 int32_t usub_run_blocks(usub_driver *driver, usub_block_fn block) {
   const int32_t count = (driver->points + driver->block - 1) / driver->block;
-  atomic_store(&driver->first_failed, INT32_MAX);
+  atomic_store_explicit(&driver->first_failed, INT32_MAX, memory_order_relaxed);
   driver->failed_block = driver->failed_point = -1;
   driver->message[0] = 0;
   for (int32_t w = 0; w < driver->threads; ++w) driver->calls[w].status = USUB_OK;

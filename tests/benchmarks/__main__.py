@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Measures the drivers against limits written by hand: `make bench`.
 
-Prints a table and writes it to docs/explanation/benchmarks.md, or to the file that is named. Timings are
-medians of interleaved rounds in one process; only the ratios carry over to other machines.
+Prints a table and writes it to docs/explanation/benchmarks.md, or to the file that is named.
+Timings are medians of interleaved rounds in one process; only the ratios carry over to other
+machines.
 """
 
 from __future__ import annotations

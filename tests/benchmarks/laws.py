@@ -25,8 +25,9 @@ C_ROUTINE = """\
 #include <math.h>
 #include <usersub/abi.h>
 void vfric_coef_(USUB_VFRIC_COEF_PARAMETERS) {
-  for (int k = 0; k < *nBlock; ++k)
-    fCoef[k] = props[1] + (props[0] - props[1]) * exp(-props[2] * slipRate[k]);
+  const double mu = props[1], more = props[0] - props[1], decay = props[2];
+  const int n = *nBlock;
+  for (int k = 0; k < n; ++k) fCoef[k] = mu + more * exp(-decay * slipRate[k]);
 }
 """
 
@@ -34,8 +35,8 @@ C_LIMIT = """\
 #include <math.h>
 void limit(double *restrict fCoef, const double *restrict slipRate, const double *restrict props,
            long n) {
-  for (long k = 0; k < n; ++k)
-    fCoef[k] = props[1] + (props[0] - props[1]) * exp(-props[2] * slipRate[k]);
+  const double mu = props[1], more = props[0] - props[1], decay = props[2];
+  for (long k = 0; k < n; ++k) fCoef[k] = mu + more * exp(-decay * slipRate[k]);
 }
 """
 
@@ -107,7 +108,9 @@ def limit(folder: Path, name: str, source: str, flags: tuple[str, ...]) -> Limit
     repeat.write_text(C_REPEAT)
     compiler = "gfortran" if path.suffix == ".f" else "gcc"
     subprocess.run(
-        [compiler, *flags, "-fPIC", "-shared", "-o", library, path, repeat, "-lm"], check=True
+        [compiler, *flags, "-fPIC", "-shared", "-o", library, path, repeat, "-lm"],
+        check=True,
+        stderr=subprocess.DEVNULL,  # flags of Fortran are strange to the C file
     )
     function = ctypes.CDLL(str(library)).repeat
     function.argtypes = [ctypes.c_void_p] * 3 + [ctypes.c_long] * 2

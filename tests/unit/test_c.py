@@ -68,7 +68,9 @@ def test_static_data_keeps_a_routine_to_one_thread():
 
 def test_compile_error_has_place_and_words(tmp_path):
     source = tmp_path / "law.c"
-    source.write_text("#include <omi_for_c.h>\n\nvoid FOR_NAME(fric,FRIC)(int *lm) {  lm = 1 +;\n}\n")
+    source.write_text(
+        "#include <omi_for_c.h>\n\nvoid FOR_NAME(fric,FRIC)(int *lm) {  lm = 1 +;\n}\n"
+    )
     with pytest.raises(usersub.CompileError, match=r"refused law\.c:\n +law\.c:3:\d+: expected"):
         usersub.load(source)
 

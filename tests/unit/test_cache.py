@@ -37,7 +37,9 @@ def test_default_folder_follows_the_platform(tmp_path, monkeypatch):
 def test_folder_that_others_can_write_is_refused(fresh):
     fresh.mkdir()
     fresh.chmod(0o777)
-    with pytest.raises(usersub.LoadError, match="can be written by others .mode 777., expected 700"):
+    with pytest.raises(
+        usersub.LoadError, match="can be written by others .mode 777., expected 700"
+    ):
         cache.folder()
 
 

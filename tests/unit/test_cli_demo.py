@@ -63,9 +63,9 @@ def test_all_well(demo):
 @pytest.mark.parametrize(
     ("bad", "words"),
     [
-        (Made(error=2e-9), "TOO LARGE"),
-        (Made(error=float("nan")), "TOO LARGE"),
-        (Made(failure="it broke"), "RoutineError: it broke"),
+        (Made(error=2e-9), "too large"),
+        (Made(error=float("nan")), "too large"),
+        (Made(failure="it broke"), "FAILED: P1 coulomb vfric python double rigid: RoutineError: it"),
     ],
 )
 def test_one_bad_row_fails(demo, bad, words):

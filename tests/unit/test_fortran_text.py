@@ -73,7 +73,9 @@ def test_units_of_free_form():
 
 
 def test_line_markers_count():
-    text = '# 1 "x.f"\n      subroutine a\n      end\n# 40 "y.inc" 1\n      subroutine b\n      end\n'
+    text = (
+        '# 1 "x.f"\n      subroutine a\n      end\n# 40 "y.inc" 1\n      subroutine b\n      end\n'
+    )
     assert [(u.name, u.file, u.line) for u in units(text, False, "z")] == [
         ("a", "x.f", 1),
         ("b", "y.inc", 40),

@@ -60,7 +60,9 @@ def test_suffix_that_is_not_known(tmp_path):
 
 
 def test_precision_that_does_not_exist():
-    with pytest.raises(usersub.AbiError, match="precision is 'half', expected 'double' or 'single'"):
+    with pytest.raises(
+        usersub.AbiError, match="precision is 'half', expected 'double' or 'single'"
+    ):
         usersub.load(_FIELD / "vfric_coef_table.c", precision="half")
 
 
@@ -68,7 +70,9 @@ def test_precision_that_does_not_exist():
 def test_file_without_an_interface_lists_what_it_has():
     with pytest.raises(usersub.LoadError) as caught:
         usersub.load(_FIELD / "planted" / "no_interface.f")
-    assert "none of the interfaces FRIC, FRIC_COEF, VFRIC, VFRICTION, VFRIC_COEF" in str(caught.value)
+    assert "none of the interfaces FRIC, FRIC_COEF, VFRIC, VFRICTION, VFRIC_COEF" in str(
+        caught.value
+    )
     assert "defines: FRICTION, UMAT" in str(caught.value)
 
 
@@ -167,8 +171,8 @@ def test_prebuilt_library_with_debug_information_is_checked(tmp_path):
 
 
 def test_stripped_library_with_data_is_not_thread_safe(tmp_path):
-    library = _cc(tmp_path, _LAW.replace("= 5", "= 5, more[64]").replace("limit)", "limit + more[k])"),
-                  "law.so", "-shared", "-fPIC", "-s")  # fmt: skip
+    source = _LAW.replace("= 5", "= 5, more[64]").replace("> limit)", "> limit + more[k])")
+    library = _cc(tmp_path, source, "law.so", "-shared", "-fPIC", "-s")
     assert not usersub.load(library).only().thread_safe
 
 
@@ -217,7 +221,10 @@ def test_info_is_plain_data():
         "shape": ["nBlock"],
         "does": "writes",
     }
-    assert info(usersub.load(_FIELD / "vfric_coef_table.c").only()).routines[0].interface == "vfric_coef"
+    assert (
+        info(usersub.load(_FIELD / "vfric_coef_table.c").only()).routines[0].interface
+        == "vfric_coef"
+    )
 
 
 def test_loading_c_imports_neither_numba_nor_fortran_tools():

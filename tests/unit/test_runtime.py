@@ -198,6 +198,29 @@ def test_fortran_library_built_by_others(call, fortran_user, how, symbol):
     _left(call(fortran_user(how), symbol, "redirect"), STOPPED, FORTRAN_STOPS[symbol])
 
 
+@pytest.mark.parametrize(
+    ("symbol", "status", "reason"),
+    [
+        ("let_it_out", CRASHED, "abort"),  # by the C++ library itself
+        ("call_terminate", STOPPED, "std::terminate"),
+        ("catch_it", 0, ""),
+    ],
+)
+def test_cpp(call, folder, runtime, symbol, status, reason):
+    compiler = shutil.which("c++")
+    if compiler is None:
+        pytest.skip("a C++ compiler is missing; install one, for example `apt-get install g++`")
+    library = folder / "cpp.so"
+    if not library.exists():
+        options = ["-O1", "-fPIC", "-shared", _NATIVE / "runtime_user.cpp", "-o", library]
+        _run(compiler, *options, *_link(runtime, "wrapped"))
+    lines = call(library, symbol, "faults")
+    if status:
+        _left(lines, status, reason)
+    else:
+        assert lines[0] == "first 0 [] armed 1"
+
+
 def test_abort_of_a_dependency(call, c_user):
     """Without redirection abort is the signal of the C library, which the fault handlers catch."""
     _left(call(c_user("plain"), "call_abort", "faults"), CRASHED, "abort")

@@ -46,7 +46,8 @@ def test_every_other_count_is_refused(face, change):
     listed = found.parameters[:-1] if change < 0 else (*found.parameters, found.parameters[0])
     found = Signature(found.symbol, found.file, found.line, True, listed)
     count, right = len(face.args) + change, len(face.args)
-    with pytest.raises(usersub.AbiError, match=rf"law\.f:1: .* has {count} arguments, expected {right};"):
+    sentence = rf"law\.f:1: .* has {count} arguments, expected {right};"
+    with pytest.raises(usersub.AbiError, match=sentence):
         signature.check(found, face, "double", "fortran")
 
 
@@ -56,7 +57,8 @@ def test_every_wrong_kind_is_refused_at_its_place(face):
     for i, argument in enumerate(face.args):
         kind, size = other[argument.kind]
         found = _signature(face, **{f"a{i}": {"kind": kind, "size": size}})
-        with pytest.raises(usersub.AbiError, match=rf"argument {i + 1} \(.*in the place of {argument.modern}\)"):
+        place = rf"argument {i + 1} \(.*in the place of {argument.modern}\)"
+        with pytest.raises(usersub.AbiError, match=place):
             signature.check(found, face, "double", "fortran")
 
 
@@ -100,7 +102,7 @@ def test_assumed_shape_and_values_are_refused():
 @pytest.mark.parametrize(
     ("file", "sentence"),
     [
-        ("vfric_coef_17.c", r"vfric_coef_17\.c:3: VFRIC_COEF has 17 arguments, expected 16 \(or 19"),
+        ("vfric_coef_17.c", r"vfric_coef_17\.c:3: .* has 17 arguments, expected 16 \(or 19"),
         ("vfric_coef_kinds.c", r"argument 3 \('nBlock'.*by value.*argument 8 .*float \*, expected "
          r"double \*.*argument 12 .*'props'.* is long \*, expected double \*"),
     ],

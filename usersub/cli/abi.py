@@ -93,7 +93,7 @@ def _overview(faces: list[abi.Interface]) -> None:
         for face in faces
     ]
     columns = ("interface", "generation", "solver", "arguments", "precision", "supplies", "source")
-    print_table("", columns, rows, right=("arguments",))
+    print_table("", columns, rows, right=("arguments",), wrap=("precision", "supplies", "source"))
 
 
 def _arguments(face: abi.Interface) -> None:
@@ -108,7 +108,7 @@ def _arguments(face: abi.Interface) -> None:
             (position, arg.modern + older, arg.kind, shape, arg.intent, arg.unit, arg.meaning, fact)
         )
     columns = ("#", "name", "type", "dimension", "intent", "unit", "meaning", "source")
-    print_table(title, columns, rows, right=("#",))
+    print_table(title, columns, rows, right=("#",), wrap=("dimension", "unit", "meaning", "source"))
     facts = [("supplies", face.purpose), ("list from", face.source)]
     if face.assumed:
         facts.append(("assumed", face.assumed))

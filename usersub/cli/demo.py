@@ -124,25 +124,32 @@ def _run(case: Any) -> dict[str, Any]:
 
 def row_of(outcome: Any) -> dict[str, Any]:
     """The line of one outcome; a NaN is within no tolerance."""
-    row = {name: getattr(outcome, name, None) for name in FIELDS}
+    row: dict[str, Any] = {name: getattr(outcome, name, None) for name in FIELDS}
     return row | {"ok": bool(row["error"] <= row["tolerance"]), "failure": None}
+
+
+def print_rows(rows: list[dict[str, Any]]) -> None:
+    """Prints one table, a line for each result, and why cases failed."""
+    cells = []
+    for row in rows:
+        numbers = ("", "", "")
+        if row["failure"] is None:
+            numbers = (
+                number(row["error"], 2), number(row["tolerance"], 2),
+                _nanoseconds(row["ns_per_point"]),
+            )
+        names = [row[k] or "" for k in FIELDS[:6]]
+        verdict = "ok" if row["ok"] else "too large" if row["failure"] is None else "FAILED"
+        names[2] = names[2].upper()
+        cells.append((*names, row["error_of"], *numbers, verdict))
+    styles = ["" if row["ok"] else "red" for row in rows]
+    optional = ("error of", "law", "tolerance", "method")
+    print_table("", _COLUMNS, cells, right=_RIGHT, optional=optional, styles=styles)
+    for row in rows:
+        if row["failure"] is not None:
+            names = [str(row[k]) for k in FIELDS[:6]]
+            click.echo(f"FAILED: {' '.join(names)}: {row['failure']}")
 
 
 def _nanoseconds(value: float) -> str:
     return f"{value:.0f}" if value >= 100.0 else number(value, 3)
-
-
-def print_rows(rows: list[dict[str, Any]]) -> None:
-    """Prints one table, a line for each result; those that failed are red and say why."""
-    cells, styles = [], []
-    for row in rows:
-        failed = row["failure"] is not None
-        numbers = ("", "", "") if failed else (
-            number(row["error"], 2), number(row["tolerance"], 2), _nanoseconds(row["ns_per_point"])
-        )
-        names = [row[k] or "" for k in FIELDS[:6]]
-        verdict = "ok" if row["ok"] else (row["failure"] or "TOO LARGE")
-        cells.append((*names[:2], names[2].upper(), *names[3:], row["error_of"] or "", *numbers,
-                      verdict))
-        styles.append("" if row["ok"] else "red")
-    print_table("", _COLUMNS, cells, right=_RIGHT, styles=styles)

@@ -54,30 +54,82 @@ def console(error: bool = False) -> Any:
     from rich.console import Console
 
     stream = sys.stderr if error else sys.stdout
-    width = None if stream.isatty() else _WIDE
-    return Console(file=stream, width=width, highlight=False, soft_wrap=False)
+    return Console(file=stream, width=None if stream.isatty() else _WIDE, highlight=False)
+
+
+def _show(renderable: Any) -> None:
+    """Prints a table or grid; into a file or pipe without blanks at the ends of lines."""
+    target = console()
+    if target.is_terminal:
+        target.print(renderable)
+        return
+    with target.capture() as captured:
+        target.print(renderable)
+    click.echo("\n".join(line.rstrip() for line in captured.get().splitlines()))
 
 
 def print_table(
     title: str,
     columns: Sequence[str],
     rows: Iterable[Sequence[Any]],
+    *,
     right: Sequence[str] = (),
-    styles: Sequence[str] | None = None,
+    wrap: Sequence[str] = (),
+    optional: Sequence[str] = (),
+    styles: Sequence[str] = (),
 ) -> None:
-    """Prints a table; columns in `right` are right-aligned, `styles` has one style a row."""
+    """Prints a table.
+
+    Args:
+        right: columns that are right-aligned.
+        wrap: columns that may be broken over lines.
+        optional: columns that are left out, one after another, on a terminal that is too narrow.
+        styles: one style a row.
+    """
+    cells = [["" if c is None else str(c) for c in row] for row in rows]
+    target, kept, left_out = console(), list(columns), []
+    while True:
+        places = [columns.index(name) for name in kept]
+        shown = [[row[i] for i in places] for row in cells]
+        table = _table(title, kept, shown, right, wrap, styles)
+        candidates = [name for name in optional if name in kept]
+        if not (target.is_terminal and candidates and _width(target, table) > target.width):
+            break
+        kept.remove(candidates[0])
+        left_out.append(candidates[0])
+    _show(table)
+    if left_out:
+        click.echo(f"left out for want of width: {', '.join(left_out)}")
+
+
+def _width(target: Any, table: Any) -> int:
+    return target.measure(table, options=target.options.update(width=10 * _WIDE)).maximum
+
+
+def _table(
+    title: str,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    right: Sequence[str],
+    wrap: Sequence[str],
+    styles: Sequence[str],
+) -> Any:
     from rich import box
     from rich.table import Table
     from rich.text import Text
 
-    look = {"title_justify": "left", "title_style": "bold", "box": box.SIMPLE_HEAD}
-    table = Table(title=title or None, **look)
-    for column in columns:
-        table.add_column(column, justify="right" if column in right else "left", overflow="fold")
+    table = Table(
+        title=title or None, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD,
+        collapse_padding=True, pad_edge=False,
+    )
+    for name in columns:
+        table.add_column(
+            name, justify="right" if name in right else "left", overflow="fold",
+            no_wrap=name not in wrap,
+        )
     for count, row in enumerate(rows):
-        cells = [Text("" if c is None else str(c)) for c in row]
-        table.add_row(*cells, style=styles[count] if styles else None)
-    console().print(table)
+        table.add_row(*map(Text, row), style=styles[count] if styles else None)
+    return table
 
 
 def print_facts(facts: Iterable[tuple[str, Any]]) -> None:
@@ -90,7 +142,7 @@ def print_facts(facts: Iterable[tuple[str, Any]]) -> None:
     grid.add_column(overflow="fold")
     for name, value in facts:
         grid.add_row(Text(name), Text(str(value)))
-    console().print(grid)
+    _show(grid)
 
 
 def number(value: float, digits: int = 6) -> str:

@@ -75,7 +75,8 @@ def _print_history(history: Any, everything: bool) -> None:
     cells = [
         [number(row[n]) if isinstance(row[n], float) else row[n] for n in names] for row in shown
     ]
-    print_table(title, names, cells, right=names)
+    optional = ("dissipation", "normal_force", "increment", "pressure")
+    print_table(title, names, cells, right=names, optional=optional)
     if len(shown) < len(rows):
         click.echo(f"{len(shown)} of {len(rows)} lines; --all prints every line and column")
     if history.cut_backs:

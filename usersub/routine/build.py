@@ -96,7 +96,12 @@ def recall(library: Path, source: Path) -> Build | None:
     guarded = stored.pop("guarded")
     lists = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
     return Build(
-        library=library, source=source, signatures=signatures, unused=unused, guarded=guarded, **lists
+        library=library,
+        source=source,
+        signatures=signatures,
+        unused=unused,
+        guarded=guarded,
+        **lists,
     )
 
 
@@ -152,9 +157,7 @@ def _refuse_if_reached(source: Path, part: Path, absent: tuple[str, ...]) -> Non
     plain = [name for name in other if not name.endswith("_")]
     if needed or plain:
         names = ", ".join(_shown(name) for name in needed or plain)
-        raise LoadError(
-            f"{source.name} calls {names}, which neither the file nor usersub defines"
-        )
+        raise LoadError(f"{source.name} calls {names}, which neither the file nor usersub defines")
 
 
 def _shown(symbol: str) -> str:

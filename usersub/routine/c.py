@@ -19,7 +19,10 @@ _FLAGS = (
     "-O2", "-g", "-fPIC", "-ffp-contract=off", "-fno-math-errno", "-fno-semantic-interposition",
     "-ffunction-sections",
 )  # fmt: skip
-_OF_LANGUAGE = {"c": ("-std=gnu11", "-Werror=implicit-function-declaration"), "c++": ("-std=gnu++17",)}
+_OF_LANGUAGE = {
+    "c": ("-std=gnu11", "-Werror=implicit-function-declaration"),
+    "c++": ("-std=gnu++17",),
+}
 _WARNINGS = ("-Wunused-parameter", "-fno-diagnostics-show-caret")
 
 
@@ -50,7 +53,9 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
         parts = (compiler.version, *chosen, *base.link_flags, source.name)
-        target = cache.path(source.stem, cache.key(language, build.RECORD, *parts, plain.read_bytes()), ".so")
+        target = cache.path(
+            source.stem, cache.key(language, build.RECORD, *parts, plain.read_bytes()), ".so"
+        )
         known = build.recall(target, source)
         if known is not None:
             return known

@@ -45,7 +45,11 @@ class Outcome:
 # Language -> environment variable, programs to look for, how to install.
 _KNOWN = {
     "c": ("CC", ("cc", "gcc", "clang"), "`apt install gcc` (or `pip install 'usersub[zig]'`)"),
-    "c++": ("CXX", ("c++", "g++", "clang++"), "`apt install g++` (or `pip install 'usersub[zig]'`)"),
+    "c++": (
+        "CXX",
+        ("c++", "g++", "clang++"),
+        "`apt install g++` (or `pip install 'usersub[zig]'`)",
+    ),
     "fortran": (
         "FC",
         ("gfortran",),
@@ -132,12 +136,14 @@ _WORDS = re.compile(r"^(?P<where>[^\s:][^:]*:\d+(?::\d+)?): *(?P<what>(?:fatal )
 
 
 def refusal(compiler: Compiler, source: Path, outcome: Outcome) -> CompileError:
-    """The error of a failed compilation: file:line:column and the compiler's words, five at most."""
-    words = list(dict.fromkeys(
-        f"{m['where']}: {m['what'].split(':', 1)[1].strip().removesuffix('.')}"
-        for m in map(_WORDS.match, outcome.text.splitlines())
-        if m
-    ))
+    """The error of a failed compilation: places and the compiler's words, five at most."""
+    words = list(
+        dict.fromkeys(
+            f"{m['where']}: {m['what'].split(':', 1)[1].strip().removesuffix('.')}"
+            for m in map(_WORDS.match, outcome.text.splitlines())
+            if m
+        )
+    )
     if not words:
         lines = [line for line in outcome.text.splitlines() if line.strip()]
         words = lines[-3:] or [f"exit code {outcome.code}"]

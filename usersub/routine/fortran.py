@@ -66,11 +66,12 @@ def _compile(
     with cache.build_folder() as folder:
         for name, data in prepared.files.items():
             (folder / name).write_bytes(data)
-        places = (f"-J{folder}", *(f"-I{p}" for p in (*base.include_folders(precision), source.parent)))
-        command = [*compiler.command, *chosen, *places]
-        outcome = compilers.run(
-            [*command, *_WARNINGS, "-c", prepared.main, "-o", "main.o"], folder
+        places = (
+            f"-J{folder}",
+            *(f"-I{p}" for p in (*base.include_folders(precision), source.parent)),
         )
+        command = [*compiler.command, *chosen, *places]
+        outcome = compilers.run([*command, *_WARNINGS, "-c", prepared.main, "-o", "main.o"], folder)
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
         part = folder / "main.o"

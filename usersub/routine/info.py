@@ -15,12 +15,15 @@ _DOES = {UNUSED: "unused", READS: "reads", WRITES: "writes", READS_AND_WRITES: "
 
 #: User subroutines of the commercial solver that may stand in the same file.
 _ENTRIES = frozenset(
-    "uel uelmat uexternaldb vexternaldb umat umatht uhyper uhard umullins creep usdfld sdvini sigini"
-    " uvarm urdfil ufield vufield uamp vuamp dload utracload disp film dflux hetval uinter gapcon"
-    " gapelectr umeshmotion uexpan utemp upress udecurrent udemagnetic flow dflow upsd uwave urcoef"
-    " uel_th voids mpc rsurfu harden hardini vumat vumatht vuhard vusdfld vuel vuinter vuinteraction"
-    " vuexpan vuequivalent vufluidexch vdisp vdload vdflux vfabric vuviscosity vwave vumullins"
-    " uconstraint usuperelas uanisohyper_inv uanisohyper_strain ucreepnetwork ucorr uthermal".split()
+    """
+    uel uelmat uexternaldb vexternaldb umat umatht uhyper uhard umullins creep usdfld sdvini
+    sigini uvarm urdfil ufield vufield uamp vuamp dload utracload disp film dflux hetval uinter
+    gapcon gapelectr umeshmotion uexpan utemp upress udecurrent udemagnetic flow dflow upsd uwave
+    urcoef uel_th voids mpc rsurfu harden hardini vumat vumatht vuhard vusdfld vuel vuinter
+    vuinteraction vuexpan vuequivalent vufluidexch vdisp vdload vdflux vfabric vuviscosity vwave
+    vumullins uconstraint usuperelas uanisohyper_inv uanisohyper_strain ucreepnetwork ucorr
+    uthermal
+    """.split()
 )
 
 

@@ -83,7 +83,7 @@ class RoutineFile(Mapping[str, Routine]):
         return next(iter(self._routines.values()))
 
     def symbol(self, name: str, precision: str | None = None) -> int:
-        """Address of any function of the file, such as "uel" or "vumat"; its data (COMMON) are those
+        """Address of any function of the file, such as "uel" or "vumat"; its COMMON data are those
         of the routines.
 
         Raises:
@@ -165,9 +165,7 @@ class Code:
         loaded = self.loaded(precision)
         place = library.address(loaded, guarded or face.symbol)
         if not place:
-            raise LoadError(
-                f"{self.path.name} has no {face.name.upper()} in {precision} precision"
-            )
+            raise LoadError(f"{self.path.name} has no {face.name.upper()} in {precision} precision")
         return Entry(place, BLOCK if guarded else FULL, loaded)
 
     def symbol(self, name: str, precision: str) -> int:
@@ -269,7 +267,9 @@ def _nearly(symbol: str) -> str:
     """The interface that a C function without FOR_NAME or a mangled C++ name was meant for."""
     for name in sorted(abi.NAMES, key=len, reverse=True):
         plain = symbol.lower().strip("_")
-        if plain == name or symbol.startswith((f"_Z{len(name)}{name}", f"_Z{len(name) + 1}{name}_")):
+        if plain == name or symbol.startswith(
+            (f"_Z{len(name)}{name}", f"_Z{len(name) + 1}{name}_")
+        ):
             return name
     return ""
 
@@ -304,9 +304,7 @@ def _generation(build: Build, name: str, asked: str | None) -> str:
     if len(known) == 1:
         return known[0]
     if asked is not None and asked not in known:
-        raise AbiError(
-            f"generation of {name.upper()} is '{asked}', expected {' or '.join(known)}"
-        )
+        raise AbiError(f"generation of {name.upper()} is '{asked}', expected {' or '.join(known)}")
     found = signature.generation(build.signatures.get(name + "_"), name, build.source_language)
     if asked == abi.LEGACY and found == abi.RELEASE_2022:
         raise AbiError(

@@ -143,9 +143,7 @@ class _Unit:
         self._handle, name = tempfile.mkstemp(prefix="usersub-unit-")
         self._path, self._at, self._owner = os.fsencode(name), 0, os.getpid()
         state = ctypes.c_int(0)
-        self._helper.usub_unit_open(
-            self._number, self._path, len(self._path), ctypes.byref(state)
-        )
+        self._helper.usub_unit_open(self._number, self._path, len(self._path), ctypes.byref(state))
         os.unlink(name)
 
     def lines(self) -> list[str]:

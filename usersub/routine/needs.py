@@ -44,9 +44,7 @@ def unused_in_fortran(
             names.setdefault(max(before, key=lambda u: u.line).name + "_", set()).add(name.lower())
     return {
         symbol: tuple(
-            i
-            for i, p in enumerate(signature.parameters)
-            if p.name.lower() in names.get(symbol, ())
+            i for i, p in enumerate(signature.parameters) if p.name.lower() in names.get(symbol, ())
         )
         for symbol, signature in found.items()
     }
