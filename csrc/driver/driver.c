@@ -84,7 +84,7 @@ static void set_sizes(usub_driver *driver) {
 /* Points a call: what is gathered should stay in the nearest cache, zero-copy slices may be long. */
 static void choose_blocks(usub_driver *driver) {
   const int32_t key = usub_interface_key(driver->face);
-  int32_t block = 1024;
+  int32_t block = USUB_LONGEST_BLOCK;
   if (driver->kind == USUB_KIND_OF_EXPLICIT)
     block = key == USUB_INTERFACE_VFRIC ? driver->size.N : key == USUB_INTERFACE_VFRICTION ? 64 : 256;
   if (driver->kind == USUB_KIND_OF_STANDARD) block = 256; /* points a guard, called one by one */

@@ -45,16 +45,6 @@ static usub_routine *routine_new(const char *interface, const char *generation,
   return routine;
 }
 
-/* Makes the utility routines (XIT, GETPARTINFO, ...) visible to libraries that name them without
- * being linked against this one: published code is compiled so. */
-static void offer_utilities(void) {
-  Dl_info self;
-  if (dladdr((void *)(uintptr_t)&usub_abi_hash, &self) && self.dli_fname) {
-    void *handle = dlopen(self.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
-    if (handle) dlclose(handle); /* the promotion to global scope stays */
-  }
-}
-
 int32_t usub_routine_open(const char *library, const char *interface, const char *generation,
                           const char *precision, usub_routine **routine, usub_error *error) {
   if (!routine)
@@ -62,8 +52,9 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
   *routine = NULL;
   usub_routine *made = routine_new(interface, generation, precision, error);
   if (!made) return error && error->status ? error->status : USUB_BAD_ARGUMENT;
-  offer_utilities();
-  void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+  usub_publish_utilities();
+  /* Lazily: other routines of the file may call what only the commercial solver has. */
+  void *handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
   if (!handle) {
     const char *why = dlerror();
     free(made);

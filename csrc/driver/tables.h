@@ -36,4 +36,7 @@ enum {
   USUB_INTENT_READWRITE = 3
 };
 
+/* maxblk of the include files: routines have local arrays of this length. */
+#define USUB_LONGEST_BLOCK 512
+
 #endif

@@ -120,6 +120,18 @@ static int stack_overflow(const siginfo_t *info, const void *context) {
   return pointer_out || address_out;
 }
 
+/* Compilers put the undefined instruction where they see that a fault is certain. */
+static int is_compiler_trap(const void *context) {
+#if defined(__linux__) && defined(__x86_64__)
+  uintptr_t place = (uintptr_t)((const ucontext_t *)context)->uc_mcontext.gregs[REG_RIP];
+  const unsigned char *code = (const unsigned char *)place;
+  return code[0] == 0x0f && code[1] == 0x0b;
+#else
+  (void)context;
+  return 0;
+#endif
+}
+
 static const char *arithmetic(int code) {
   switch (code) {
   case FPE_INTDIV:
@@ -145,7 +157,11 @@ static void describe(char *reason, size_t size, int signal, const siginfo_t *inf
   if (signal == SIGFPE) {
     append(reason, size, arithmetic(info->si_code));
   } else if (signal == SIGILL) {
-    append(reason, size, "illegal instruction");
+    append(reason, size,
+           is_compiler_trap(context)
+               ? "a fault that the compiler saw coming, such as a division by "
+                 "zero or a null pointer"
+               : "illegal instruction");
   } else if (signal == SIGABRT) {
     append(reason, size, "abort");
   } else if (stack_overflow(info, context)) {

@@ -6,7 +6,7 @@
 #include <usersub/coefficient_law.h>
 
 USUB_LAW_FUNCTION {
-  const usub_real transition = (props[0] - props[1]) * usub_exp_decay(props[2] * rate);
+  const usub_real transition = (props[0] - props[1]) * usub_bounded_exp(-props[2] * rate);
   if (derivative)
     derivative[0] = -props[2] * transition;
   return props[1] + transition;

@@ -17,7 +17,7 @@ contains
     real(wp), intent(in) :: rate, pressure, temperature, props(:)
     real(wp), intent(inout), optional :: derivative(3)
     real(wp) :: mu, transition
-    transition = (props(1) - props(2))*exp_decay(props(3)*rate)
+    transition = (props(1) - props(2))*bounded_exp(-props(3)*rate)
     mu = props(2) + transition
     if (present(derivative)) derivative(1) = -props(3)*transition
   end function

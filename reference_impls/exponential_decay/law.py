@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Exponential decay from a static to a kinetic coefficient; props: static, kinetic, decay."""
 
-from usersub.laws.lift import coefficient_law, exp_decay
+from usersub.laws.lift import bounded_exp, coefficient_law
 
 
 def exponential_decay(slip_rate, _pressure, _temperature, props):
-    transition = (props[0] - props[1]) * exp_decay(props[2] * slip_rate)
+    transition = (props[0] - props[1]) * bounded_exp(-props[2] * slip_rate)
     return props[1] + transition, -props[2] * transition, 0.0, 0.0
 
 

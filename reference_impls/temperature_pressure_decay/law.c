@@ -11,7 +11,7 @@
 USUB_LAW_FUNCTION {
   const usub_real at_rest = props[0] * temperature + props[1] * pressure;
   const usub_real sliding = props[2] * temperature + props[3] * pressure;
-  const usub_real share = usub_exp_decay(props[4] * rate);
+  const usub_real share = usub_bounded_exp(-props[4] * rate);
   if (derivative) {
     derivative[0] = -props[4] * (at_rest - sliding) * share;
     derivative[1] = props[3] + (props[1] - props[3]) * share;

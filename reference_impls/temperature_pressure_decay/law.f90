@@ -22,7 +22,7 @@ contains
     real(wp) :: mu, at_rest, sliding, share
     at_rest = props(1)*temperature + props(2)*pressure
     sliding = props(3)*temperature + props(4)*pressure
-    share = exp_decay(props(5)*rate)
+    share = bounded_exp(-props(5)*rate)
     mu = sliding + (at_rest - sliding)*share
     if (present(derivative)) then
       derivative(1) = -props(5)*(at_rest - sliding)*share

@@ -154,7 +154,7 @@ end program
         ("VABA_PARAM.INC", "double", "j_sys_Dimension", 8, 2),
         ("vaba_param.inc", "double", "n_vec_Length", 8, 136),
         ("VABA_PARAM.INC", "single", "j_sys_Dimension", 4, 1),
-        ("vaba_param.inc", "single", "maxblk", 4, 136),
+        ("vaba_param.inc", "single", "maxblk", 4, 512),
         ("vaba_param_sp.inc", "double", "j_sys_Dimension", 4, 1),
         ("vaba_param_dp.inc", "single", "j_sys_Dimension", 8, 2),
     ],

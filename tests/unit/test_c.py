@@ -113,3 +113,14 @@ def test_every_shape_of_hosts_include_compiles_alone(tmp_path):
             command = [*compiler.command, *c.flags(language, precision), *folders]
             command += ["-Wall", "-Wextra", "-Werror", "-fsyntax-only", str(source)]
             assert subprocess.run(command).returncode == 0
+
+
+def test_another_fortran_compiler_in_fc_does_not_hide_gfortran(monkeypatch, tmp_path, fortran):
+    other = tmp_path / "ifx"
+    other.write_text("#!/bin/sh\necho another compiler 1.0\n")
+    other.chmod(0o700)
+    monkeypatch.setenv("FC", str(other))
+    assert "GNU Fortran" in compilers.find("fortran").version
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(usersub.MissingTool, match="of FC is another compiler"):
+        compilers.find("fortran")

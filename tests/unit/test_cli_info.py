@@ -49,8 +49,16 @@ def test_python_file_with_two_routines(tmp_path):
     path.write_text(PYTHON)
     result = info(path)
     assert result.exit_code == 0, result.stderr
-    for words in ("FRIC_COEF, generation 2022", "VFRIC (explicit)", "mine", "slipData", "writes",
-                  "the routine does not use it", "contact points a call", "one only"):
+    for words in (
+        "FRIC_COEF, generation 2022",
+        "VFRIC (explicit)",
+        "mine",
+        "slipData",
+        "writes",
+        "the routine does not use it",
+        "contact points a call",
+        "one only",
+    ):
         assert words in result.stdout
     found = json.loads(info(path, "--json").stdout)
     first, second = found["results"]
@@ -77,8 +85,15 @@ def test_fortran_file(tmp_path):
     path.write_text(FORTRAN)
     result = info(path)
     assert result.exit_code == 0, result.stderr
-    for words in ("GNU Fortran", "-ffixed-line-length-132", "UEL", "KEPT", "one only", "RATE",
-                  "compared with the table"):
+    for words in (
+        "GNU Fortran",
+        "-ffixed-line-length-132",
+        "UEL",
+        "KEPT",
+        "one only",
+        "RATE",
+        "compared with the table",
+    ):
         assert words.lower() in result.stdout.lower(), result.stdout
     single = json.loads(info(path, "--precision", "single", "--json").stdout)
     assert single["file"]["precision"] == "single"

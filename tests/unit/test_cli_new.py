@@ -65,7 +65,10 @@ def test_new_passes_its_own_tests(language, tmp_path, request):
         assert run("new", f"my_{name}", "-i", name, "-l", language, "-d", tmp_path).exit_code == 0
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)],
-        capture_output=True, text=True, cwd=tmp_path, check=False,
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        check=False,
     )
     assert done.returncode == 0, done.stdout
     assert "skipped" not in done.stdout

@@ -182,9 +182,7 @@ def test_stick_force_rules(tmp_path, name, rule, expected):
     text = "time = [0, 1, 3]\nslip = [[0, 0], [3, 4], [3, 4]]\npressure = 2.0\n" + rule
     columns = run_scene(write(tmp_path, ECHO.format(name=name, count=count), text)).history.columns
     np.testing.assert_allclose(columns["stick_force"][:, 0], expected, rtol=1e-14)
-    np.testing.assert_allclose(
-        np.linalg.norm(columns["force"][:, 0], axis=1), expected, rtol=1e-14
-    )
+    np.testing.assert_allclose(np.linalg.norm(columns["force"][:, 0], axis=1), expected, rtol=1e-14)
     # Force on the secondary side against the slip; stress positive along it.
     np.testing.assert_allclose(columns["force"][0, 0], -np.array([0.6, 0.8]) * expected[0])
     np.testing.assert_allclose(columns["tau"][0, 0], np.array([0.6, 0.8]) * expected[0])
@@ -428,3 +426,17 @@ def test_problem_that_does_not_fit(tmp_path, text, words):
     result = cli_run(path)
     assert result.exit_code == 1 and words in result.stderr
     assert result.stderr.startswith(f"usersub run: {path}: ")
+
+
+def test_iterations_go_on_until_lm_settles(tmp_path):
+    code = """
+@usersub.fric(compiled=False)
+def chatters(LM, TAU, STATEV, KINC):
+    STATEV[0] = LM[0]
+    LM[0] = (LM[0] + 1) % 3 if KINC == 2 else 0
+    TAU[0] = TAU[1] = 0.0
+"""
+    history = run_scene(write(tmp_path, code, TWO + "iterations = 4", "states = 1")).history
+    assert any("in 1 increments LM still changed after 4 iterations" in n for n in history.notes)
+    # On entry of the fourth iteration of increment 2: 0, 1, 2, 0.
+    np.testing.assert_array_equal(history.columns["state"][:, 0, 0], [0, 0])

@@ -322,3 +322,111 @@ def test_absent_function_says_its_name_and_ends_the_call():
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 1
     assert "GETVRM was called, which usersub does not provide" in done.stderr
+
+
+def test_large_local_arrays_need_no_large_stack(tmp_path):
+    """20 MB of local data: static, so that the routine keeps to one thread."""
+    source = tmp_path / "large.f90"
+    source.write_text(
+        "subroutine vfric_coef(fc,fd,nb,np,nt,nf,jf,rd,a,b,c,props,rate,p,t,f)\n"
+        " include 'vaba_param.inc'\n character*80 a, b, c\n dimension fc(nb), props(np)\n"
+        " dimension work(2500000)\n do k = 1, 2500000\n  work(k) = k\n end do\n"
+        " fc(1) = props(1) + work(int(props(2)))\nend\n"
+    )
+    routine = usersub.load(source).only()
+    assert not routine.thread_safe and info(source).shared_state == ("variable work",)
+    driver = usersub.CoefficientDriver(routine, usersub.Scene(points=1, props=[0.25, 2e6], nodes=1))
+    assert driver.evaluate(slip_rate=np.zeros(1), pressure=np.ones(1))[0] == 2000000.25
+
+
+def test_huge_common_block_is_not_touched(tmp_path):
+    """1.6 GB of COMMON data of which one word is used."""
+    source = tmp_path / "huge.for"
+    source.write_text(
+        "      SUBROUTINE VFRIC_COEF(FC,FD,NB,NP,NT,NF,JF,RD,A,B,C,PROPS,RATE,P,T,F)\n"
+        "      INCLUDE 'VABA_PARAM.INC' ! with a remark\n      CHARACTER*8 A, B, C\n"
+        "      COMMON /HUGE/ X(200000000)\n      DIMENSION FC(NB), PROPS(NP)\n"
+        "      X(123456789) = PROPS(1)\n      FC(1) = X(123456789) + X(1)\n      END\n"
+    )
+    driver = usersub.CoefficientDriver(
+        usersub.load(source).only(), usersub.Scene(points=1, props=[0.25], nodes=1)
+    )
+    assert driver.evaluate(slip_rate=np.zeros(1), pressure=np.ones(1))[0] == 0.25
+
+
+def test_second_entry_of_a_unit_is_a_routine_without_a_check(tmp_path):
+    """gfortran describes units with ENTRY without their arguments."""
+    arguments = "(FC,FD,NB,NP,NT,NF,J,R,A,B,C,PROPS,S,P,T,F)"
+    source = tmp_path / "entry.f"
+    source.write_text(
+        f"      SUBROUTINE VFRIC_COEF{arguments}\n      INCLUDE 'VABA_PARAM.INC'\n"
+        "      CHARACTER*80 A, B, C\n      DIMENSION FC(NB), PROPS(NP)\n"
+        f"      FC(1) = PROPS(1)\n      RETURN\n      ENTRY FRIC_COEF{arguments}\n"
+        "      FC(1) = PROPS(2)\n      END\n"
+    )
+    file = usersub.load(source, generation="legacy")
+    assert [r.checked for r in info(file).routines] == [False, False]
+    assert file["fric_coef"].uses is None
+    scene = usersub.Scene(points=1, props=[0.25, 0.75], nodes=1)
+    for name, expected in (("fric_coef", 0.75), ("vfric_coef", 0.25)):
+        driver = usersub.CoefficientDriver(file[name], scene)
+        assert driver.evaluate(slip_rate=np.zeros(1), pressure=np.ones(1))[0] == expected
+
+
+def test_names_of_files_may_hold_blanks_quotes_and_letters(tmp_path):
+    source = tmp_path / "my law's größe.F"
+    source.write_bytes((_FIELD / "vfriction_own_xit.f").read_bytes())
+    (tmp_path / "MY_LIMITS.inc").write_bytes((_FIELD / "my_limits.inc").read_bytes())
+    used = usersub.load(source).only().uses
+    assert used == usersub.load(_FIELD / "vfriction_own_xit.f").only().uses
+
+
+def test_include_files_in_folders_and_of_other_systems(tmp_path):
+    """Backslashes, folders in another case, one include file in another, an own typing rule."""
+    (tmp_path / "Include" / "Deep").mkdir(parents=True)
+    (tmp_path / "Include" / "outer.inc").write_text("      include 'deep/INNER.INC'\r\n")
+    (tmp_path / "Include" / "Deep" / "inner.inc").write_text(
+        "      implicit real*8 (a-h,o-z)\r\n      parameter (half = 0.5d0)\r\n"
+    )
+    source = tmp_path / "law.for"
+    source.write_text(
+        "      SUBROUTINE VFRIC_COEF(FC,FD,NB,NP,NT,NF,JF,RD,A,B,C,PROPS,RATE,P,T,F)\n"
+        "#include <SMAAspUserSubroutines.hdr>\n      INCLUDE 'include\\OUTER.inc'\n"
+        "      CHARACTER*80 A, B, C\n      DIMENSION FC(NB), P(NB)\n"
+        "      FC(1) = HALF*P(1) + GET_THREAD_ID()\n      END\n"
+    )
+    driver = usersub.CoefficientDriver(
+        usersub.load(source).only(), usersub.Scene(points=1, nodes=1)
+    )
+    assert driver.evaluate(slip_rate=np.zeros(1), pressure=np.array([3.0]))[0] == 1.5
+
+
+def test_extensions_of_other_compilers(tmp_path):
+    source = tmp_path / "law.f"
+    source.write_text(
+        "      SUBROUTINE VFRIC_COEF(FC,FD,NB,NP,NT,NF,JF,RD,A,B,C,PROPS,RATE,P,T,F)\n"
+        "      INCLUDE 'VABA_PARAM.INC'\n      CHARACTER*80 A, B, C\n"
+        "      DIMENSION FC(NB), PROPS(NP)\n      STRUCTURE /PAIR/\n        REAL*8 FIRST\n"
+        "        REAL*8 SECOND\n      END STRUCTURE\n      RECORD /PAIR/ MU\n"
+        "      MU.FIRST = PROPS(1)\n      MU.SECOND = 2\nD     FC(1) = 7\n"
+        "      FC(1) = MU.FIRST*MU.SECOND\n      END\n"
+    )
+    driver = usersub.CoefficientDriver(
+        usersub.load(source).only(), usersub.Scene(points=1, props=[0.25], nodes=1)
+    )
+    assert driver.evaluate(slip_rate=np.zeros(1), pressure=np.ones(1))[0] == 0.5
+
+
+def test_fortran_object(tmp_path, fortran, said):
+    text = (_FIELD / "fric_messages.f").read_text().replace("#include", "C     include")
+    (tmp_path / "law.f").write_text(
+        text.replace("INCLUDE 'ABA_PARAM.INC'", "IMPLICIT REAL*8(A-H,O-Z)")
+    )
+    part = tmp_path / "law.o"
+    flags = ["-c", "-fPIC", "-ffixed-line-length-132", "-fallow-argument-mismatch"]
+    subprocess.run([fortran, *flags, str(tmp_path / "law.f"), "-o", str(part)], check=True)
+    scene = usersub.Scene(points=1, dimension=2, props=[0.1, 50.0])
+    driver = usersub.StandardDriver(usersub.load(part).only(), scene)
+    driver.begin_increment(0.5)
+    driver.iterate(slip_increment=np.ones((1, 1), order="F"), pressure=np.array([20.0]))
+    assert (0, " on unit 6") in said

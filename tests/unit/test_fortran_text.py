@@ -104,6 +104,7 @@ def test_form(suffix, text, free):
     [
         ("      INCLUDE 'ABA_PARAM.INC'", "ABA_PARAM.INC"),
         ('\tinclude "a b.inc"', "a b.inc"),
+        ("      Include 'Vaba_Param.inc'  ! isn't it", "Vaba_Param.inc"),
         ("#include <SMAAspUserSubroutines.hdr>", "SMAAspUserSubroutines.hdr"),
         ('  #  include "x.h"  ', "x.h"),
         ("      include = 3", None),

@@ -3,14 +3,19 @@
 
 from __future__ import annotations
 
+import json
+import tempfile
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from usersub import abi
+from usersub import abi, ports
 from usersub.errors import SceneError
-from usersub.scenefile import read
+from usersub.scenefile import columns, history, read
 from usersub.scenefile.interpolate import at
 from usersub.scenefile.setup import history_of
 
@@ -36,11 +41,11 @@ def complete(path: Path, interface: str = "vfriction"):
 
 
 def test_inline_history(tmp_path):
-    settings, history = complete(scene_file(tmp_path))
+    settings, found = complete(scene_file(tmp_path))
     assert settings["dimension"] == 3 and settings["points"] == 1
-    np.testing.assert_array_equal(history.slip[:, 0], [[0, 0], [1, 2], [0, 4]])
-    np.testing.assert_array_equal(history.pressure, [[5], [7], [11]])
-    row = at(history, 1, 0.25)
+    np.testing.assert_array_equal(found.slip[:, 0], [[0, 0], [1, 2], [0, 4]])
+    np.testing.assert_array_equal(found.pressure, [[5], [7], [11]])
+    row = at(found, 1, 0.25)
     assert row.time == 1.5
     np.testing.assert_array_equal(row.slip, [[0.75, 2.5]])
     np.testing.assert_array_equal(row.pressure, [8.0])
@@ -56,21 +61,21 @@ def test_points_have_their_own_columns(tmp_path):
     temperature_main = [[40, 50], [60, 70]]
     field = [[1, 2, 3], [4, 5, 6]]
     """
-    settings, history = complete(scene_file(tmp_path, text, "points = 2"))
+    settings, found = complete(scene_file(tmp_path, text, "points = 2"))
     assert settings["temperatures"] == 1 and settings["fields"] == 3
-    np.testing.assert_array_equal(history.slip[1], [[1, 2], [3, 4]])
-    np.testing.assert_array_equal(history.pressure, [[3, 2], [5, 3]])
-    np.testing.assert_array_equal(history.normal_force, [[6, 8], [10, 12]])
-    np.testing.assert_array_equal(history.temperature[0], [[20, 20], [30, 30]])
-    np.testing.assert_array_equal(history.temperature[1], [[40, 50], [60, 70]])
-    np.testing.assert_array_equal(history.fields[1][1], [[4, 5, 6], [4, 5, 6]])
+    np.testing.assert_array_equal(found.slip[1], [[1, 2], [3, 4]])
+    np.testing.assert_array_equal(found.pressure, [[3, 2], [5, 3]])
+    np.testing.assert_array_equal(found.normal_force, [[6, 8], [10, 12]])
+    np.testing.assert_array_equal(found.temperature[0], [[20, 20], [30, 30]])
+    np.testing.assert_array_equal(found.temperature[1], [[40, 50], [60, 70]])
+    np.testing.assert_array_equal(found.fields[1][1], [[4, 5, 6], [4, 5, 6]])
 
 
 def test_slip_increments_add_up(tmp_path):
     text = "time = [0, 1, 2]\nslip_increment = [[0, 0], [1, 2], [3, 5]]\npressure = 4.0"
-    _, history = complete(scene_file(tmp_path, text))
-    np.testing.assert_array_equal(history.slip[:, 0], [[0, 0], [1, 2], [4, 7]])
-    np.testing.assert_array_equal(history.pressure, [[4], [4], [4]])
+    _, found = complete(scene_file(tmp_path, text))
+    np.testing.assert_array_equal(found.slip[:, 0], [[0, 0], [1, 2], [4, 7]])
+    np.testing.assert_array_equal(found.pressure, [[4], [4], [4]])
 
 
 def test_csv_names_components_and_points(tmp_path):
@@ -78,17 +83,17 @@ def test_csv_names_components_and_points(tmp_path):
         "# a comment\ntime, slip_2, slip_1[0], slip_1[1], pressure, field_1\n\n"
         "0, 0, 0, 0, 5, 1\n2, 1, 3, 4, 6, 2\n"
     )
-    _, history = complete(scene_file(tmp_path, 'file = "h.csv"\nsubsteps = 4', "points = 2"))
-    np.testing.assert_array_equal(history.slip[1], [[3, 1], [4, 1]])
-    np.testing.assert_array_equal(history.fields[0][:, 1, 0], [1, 2])
-    assert history.substeps == 4
+    _, found = complete(scene_file(tmp_path, 'file = "h.csv"\nsubsteps = 4', "points = 2"))
+    np.testing.assert_array_equal(found.slip[1], [[3, 1], [4, 1]])
+    np.testing.assert_array_equal(found.fields[0][:, 1, 0], [1, 2])
+    assert found.substeps == 4
 
 
 def test_npz_and_inline_columns_together(tmp_path):
     np.savez(tmp_path / "h.npz", time=[0.0, 0.5], slip=np.array([[0.0, 0.0], [1.0, 2.0]]))
-    _, history = complete(scene_file(tmp_path, 'file = "h.npz"\npressure = [1.0, 2.0]'))
-    np.testing.assert_array_equal(history.slip[1], [[1, 2]])
-    np.testing.assert_array_equal(history.time, [0, 0.5])
+    _, found = complete(scene_file(tmp_path, 'file = "h.npz"\npressure = [1.0, 2.0]'))
+    np.testing.assert_array_equal(found.slip[1], [[1, 2]])
+    np.testing.assert_array_equal(found.time, [0, 0.5])
 
 
 def wrong_history(text: str) -> str:
@@ -104,6 +109,7 @@ def wrong_history(text: str) -> str:
         ("pressure = [5.0, 7.0]", ["pressure", "2", "3 rows"]),
         ("pressure = [5.0, -7.0, 1.0]", ["pressure = -7", "not be below 0"]),
         ("pressure = [5.0, nan, 1.0]", ["pressure", "finite"]),
+        (f"pressure = [5.0, {10**400}, 1.0]", ["pressure", "finite number"]),
         ("pressure = [5.0, true, 1.0]", ["pressure", "finite number"]),
         ('pressure = "high"', ["pressure", '"high"', "number"]),
         ("time = [0.0, 1.0, 1.0]", ["time", "strictly increasing"]),
@@ -291,3 +297,62 @@ def test_wrong_problem(tmp_path, text, words):
     with pytest.raises(SceneError) as raised:
         read(path)
     check(raised, "scene.toml", words)
+
+
+def toml(value) -> str:
+    """A value in TOML; enough for what the strategy below makes."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(k)} = {toml(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    if isinstance(value, float):
+        return repr(value)
+    return json.dumps(value)
+
+
+VALUES = st.recursive(
+    st.booleans() | st.integers(-(2**40), 2**40) | st.floats() | st.sampled_from(["", "a.csv"]),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from("ab"), inner),
+    max_leaves=6,
+)
+TABLES = {
+    "": ["routine", "interface", "generation", "language", "props", "x"],
+    "scene": [*(s.key for s in ports.SETTINGS), "x"],
+    "history": [*columns.NAMES, *history.KEYS, "x"],
+    "output": ["csv", "npz", "figure", "x"],
+}
+
+
+@settings(max_examples=200)
+@given(
+    st.fixed_dictionaries(
+        {t: st.dictionaries(st.sampled_from(k), VALUES, max_size=1) for t, k in TABLES.items()}
+    ),
+    st.sampled_from(["fric", "vfric"]),
+)
+def test_any_nonsense_is_a_scene_error(tables, interface):
+    """Whatever stands behind the keys, the reader says so; it never fails otherwise."""
+    base = {"": {"routine": "law.c"}, "history": tomllib.loads(HISTORY)}
+    lines = []
+    for name, table in tables.items():
+        lines += [f"[{name}]"] if name else []
+        lines += [f"{k} = {toml(v)}" for k, v in {**base.get(name, {}), **table}.items()]
+    text = "\n".join(lines)
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "law.c").write_text("")
+        path = Path(folder) / "scene.toml"
+        path.write_text(text)
+        try:
+            history_of(read(path), abi.interface(interface))
+        except SceneError as error:
+            assert str(path) in str(error) or str(folder) in str(error)
+
+
+def test_the_manual_lists_every_column_and_key():
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "scene-files.md").read_text()
+    widths = {"1": "1", "F": "friction directions", "P": "fields"}
+    for column in columns.COLUMNS:
+        row = f"| `{column.name}` | {column.unit} | {widths[column.width]} | {column.meaning} |"
+        assert row in page
+    for key, (_, default, meaning) in history.KEYS.items():
+        assert f"| `{key}` | {'' if default is None else default} | {meaning} |" in page

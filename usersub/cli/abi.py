@@ -34,12 +34,14 @@ def modern_shape(face: abi.Interface, arg: abi.Arg) -> tuple[str, ...]:
 
 
 @click.command(
-    "abi", cls=Examples,
+    "abi",
+    cls=Examples,
     examples=("usersub abi", "usersub abi vfric", "usersub abi fric_coef --generation legacy"),
 )
 @click.argument("interface", required=False, callback=interface_name)
 @click.option(
-    "--generation", type=click.Choice([abi.LEGACY, abi.RELEASE_2022]),
+    "--generation",
+    type=click.Choice([abi.LEGACY, abi.RELEASE_2022]),
     help="Generation of FRIC_COEF.",
 )
 @common("abi")
@@ -53,7 +55,8 @@ def command(interface: str | None, generation: str | None, as_json: bool) -> Non
             f"{interface.upper()} has one generation only", param_hint="--generation"
         )
     faces = [
-        face for face in abi.INTERFACES
+        face
+        for face in abi.INTERFACES
         if interface in (None, face.name) and generation in (None, face.generation)
     ]
     if as_json:
@@ -70,14 +73,27 @@ def command(interface: str | None, generation: str | None, as_json: bool) -> Non
 
 def _as_dict(face: abi.Interface) -> dict[str, Any]:
     return {
-        "interface": face.name, "generation": face.generation, "solver": face.solver,
-        "symbol": face.symbol, "precisions": face.precisions, "purpose": face.purpose,
-        "source": face.source, "assumed": face.assumed,
+        "interface": face.name,
+        "generation": face.generation,
+        "solver": face.solver,
+        "symbol": face.symbol,
+        "precisions": face.precisions,
+        "purpose": face.purpose,
+        "source": face.source,
+        "assumed": face.assumed,
         "arguments": [
             {
-                "position": i, "name": a.modern, "older_name": a.name, "aliases": a.aliases,
-                "kind": a.kind, "shape": modern_shape(face, a), "intent": a.intent, "unit": a.unit,
-                "meaning": a.meaning, "confirmed": a.confirmed, "assumed": a.assumed,
+                "position": i,
+                "name": a.modern,
+                "older_name": a.name,
+                "aliases": a.aliases,
+                "kind": a.kind,
+                "shape": modern_shape(face, a),
+                "intent": a.intent,
+                "unit": a.unit,
+                "meaning": a.meaning,
+                "confirmed": a.confirmed,
+                "assumed": a.assumed,
             }
             for i, a in enumerate(face.args, 1)
         ],
@@ -87,8 +103,13 @@ def _as_dict(face: abi.Interface) -> dict[str, Any]:
 def _overview(faces: list[abi.Interface]) -> None:
     rows = [
         (
-            face.name.upper(), face.generation if face.name == "fric_coef" else "",
-            face.solver, len(face.args), " ".join(face.precisions), face.purpose, face.source,
+            face.name.upper(),
+            face.generation if face.name == "fric_coef" else "",
+            face.solver,
+            len(face.args),
+            " ".join(face.precisions),
+            face.purpose,
+            face.source,
         )
         for face in faces
     ]

@@ -16,40 +16,76 @@ from usersub.errors import Error, MissingTool
 _LANGUAGES = ("python", "c", "fortran")
 _PRECISIONS = ("double", "single")
 _COLUMNS = (
-    "problem", "law", "interface", "language", "precision", "method", "error of", "error",
-    "tolerance", "ns/point", "",
+    "problem",
+    "law",
+    "interface",
+    "language",
+    "precision",
+    "method",
+    "error of",
+    "error",
+    "tolerance",
+    "ns/point",
+    "",
 )
 _RIGHT = ("error", "tolerance", "ns/point")
 FIELDS = (
-    "problem", "law", "interface", "language", "precision", "method", "step", "points", "error",
-    "error_of", "tolerance", "run_time_s", "ns_per_point",
+    "problem",
+    "law",
+    "interface",
+    "language",
+    "precision",
+    "method",
+    "step",
+    "points",
+    "error",
+    "error_of",
+    "tolerance",
+    "run_time_s",
+    "ns_per_point",
 )
 
 
 @click.command(
-    "demo", cls=Examples,
+    "demo",
+    cls=Examples,
     examples=(
-        "usersub demo", "usersub demo --language fortran --problem P1", "usersub demo --json",
+        "usersub demo",
+        "usersub demo --language fortran --problem P1",
+        "usersub demo --json",
     ),
 )
 @click.option("--problem", "problems", multiple=True, help="Only this problem (may be repeated).")
 @click.option(
-    "--interface", "interfaces", multiple=True, type=click.Choice(abi.NAMES, case_sensitive=False),
+    "--interface",
+    "interfaces",
+    multiple=True,
+    type=click.Choice(abi.NAMES, case_sensitive=False),
     help="Only this interface (may be repeated).",
 )
 @click.option(
-    "--language", "languages", multiple=True, type=click.Choice(_LANGUAGES),
+    "--language",
+    "languages",
+    multiple=True,
+    type=click.Choice(_LANGUAGES),
     help="Only this language (may be repeated).",
 )
 @click.option(
-    "--precision", "precisions", multiple=True, type=click.Choice(_PRECISIONS),
+    "--precision",
+    "precisions",
+    multiple=True,
+    type=click.Choice(_PRECISIONS),
     help="Only this precision (may be repeated).",
 )
 @click.option("--quick", is_flag=True, help="Fewer and shorter cases.")
 @common("demo")
 def command(
-    problems: tuple[str, ...], interfaces: tuple[str, ...], languages: tuple[str, ...],
-    precisions: tuple[str, ...], quick: bool, as_json: bool,
+    problems: tuple[str, ...],
+    interfaces: tuple[str, ...],
+    languages: tuple[str, ...],
+    precisions: tuple[str, ...],
+    quick: bool,
+    as_json: bool,
 ) -> int:
     """Run problems with known answers through every interface, language and precision.
 
@@ -61,8 +97,12 @@ def command(
     begin = time.perf_counter()
     cases = demo_cases(quick=quick)
     _check_problems(problems, [case.problem for case in cases])
-    wanted = {"problem": problems, "interface": interfaces, "language": languages,
-              "precision": precisions}
+    wanted = {
+        "problem": problems,
+        "interface": interfaces,
+        "language": languages,
+        "precision": precisions,
+    }
     cases = [c for c in cases if all(_chosen(getattr(c, k), v) for k, v in wanted.items())]
     missing = _missing(sorted({case.language for case in cases}))
     rows = []
@@ -135,7 +175,8 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
         numbers = ("", "", "")
         if row["failure"] is None:
             numbers = (
-                number(row["error"], 2), number(row["tolerance"], 2),
+                number(row["error"], 2),
+                number(row["tolerance"], 2),
                 _nanoseconds(row["ns_per_point"]),
             )
         names = [row[k] or "" for k in FIELDS[:6]]

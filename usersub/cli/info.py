@@ -26,15 +26,17 @@ _PER_INTERFACE: dict[str, dict[str, Any]] = {
 
 
 @click.command(
-    "info", cls=Examples,
+    "info",
+    cls=Examples,
     examples=("usersub info my_friction.f90", "usersub info my_friction.f90 --interface vfric"),
 )
 @click.argument("routine", type=click.Path(path_type=Path))
+@click.option("--interface", "-i", callback=interface_name, help="Only this interface of the file.")
 @click.option(
-    "--interface", "-i", callback=interface_name, help="Only this interface of the file."
-)
-@click.option(
-    "--precision", type=click.Choice(["double", "single"]), default="double", show_default=True,
+    "--precision",
+    type=click.Choice(["double", "single"]),
+    default="double",
+    show_default=True,
     help="Precision in which the file is compiled.",
 )
 @common("info")
@@ -70,7 +72,7 @@ def _plan(routine: Any, precision: str) -> Any:
     from usersub.scenefile.sample import bind_sample
 
     interface = routine.interface.name
-    settings = {"points": _POINTS, "dimension": 3, "precision": precision}
+    settings: dict[str, Any] = {"points": _POINTS, "dimension": 3, "precision": precision}
     settings |= _PER_INTERFACE.get(interface, {})
     try:
         driver = usersub.driver(routine, usersub.Scene(**settings))
@@ -90,8 +92,10 @@ def _print_file(found: Any) -> None:
         facts.append(("compiled", found.library))
     facts.append(("interfaces", ", ".join(r.interface.upper() for r in found.routines)))
     for name, words in (
-        ("other entries", found.entries), ("functions", found.functions),
-        ("shared state", found.shared_state), ("not defined", found.absent),
+        ("other entries", found.entries),
+        ("functions", found.functions),
+        ("shared state", found.shared_state),
+        ("not defined", found.absent),
     ):
         if words:
             facts.append((name, ", ".join(words)))
@@ -107,9 +111,13 @@ def _print_routine(one: Any, plan: Any) -> None:
     if one.interface == "fric_coef":
         title += f", generation {one.generation}"
     facts = [
-        ("interface", f"{title} ({face.solver})"), ("routine", one.name),
-        ("argument list", f"{len(face.args)} arguments, "
-         + ("compared with the table" if one.checked else "not checked")),
+        ("interface", f"{title} ({face.solver})"),
+        ("routine", one.name),
+        (
+            "argument list",
+            f"{len(face.args)} arguments, "
+            + ("compared with the table" if one.checked else "not checked"),
+        ),
         ("threads", "may run in several" if one.thread_safe else "one only"),
     ]
     if one.interface == "fric_coef":
@@ -117,8 +125,13 @@ def _print_routine(one: Any, plan: Any) -> None:
     facts += [("note", note) for note in one.notes]
     print_facts(facts)
     rows = [
-        (a.name, a.declared if a.declared.lower() != a.name.lower() else "", a.kind,
-         ",".join(modern_shape(face, arg)) or "scalar", a.does)
+        (
+            a.name,
+            a.declared if a.declared.lower() != a.name.lower() else "",
+            a.kind,
+            ",".join(modern_shape(face, arg)) or "scalar",
+            a.does,
+        )
         for a, arg in zip(one.arguments, face.args, strict=True)
         if a.does != "unused"
     ]

@@ -41,7 +41,11 @@ def _print_version(ctx: click.Context, parameter: click.Parameter, value: bool) 
     cls=Commands, lazy=_LAZY, help=_HELP, context_settings={"help_option_names": ["-h", "--help"]}
 )
 @click.option(
-    "--version", is_flag=True, expose_value=False, is_eager=True, callback=_print_version,
+    "--version",
+    is_flag=True,
+    expose_value=False,
+    is_eager=True,
+    callback=_print_version,
     help="Print the release.",
 )
 def cli() -> None:

@@ -42,7 +42,8 @@ def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
 
 
 @click.command(
-    "new", cls=Examples,
+    "new",
+    cls=Examples,
     examples=(
         "usersub new my_friction --interface vfric --language python",
         "usersub new decay -i fric_coef -l fortran --dir laws",
@@ -50,15 +51,25 @@ def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
 )
 @click.argument("name", callback=_name)
 @click.option(
-    "--interface", "-i", required=True, callback=interface_name,
+    "--interface",
+    "-i",
+    required=True,
+    callback=interface_name,
     help=f"One of {', '.join(abi.NAMES)}.",
 )
 @click.option(
-    "--language", "-l", required=True, type=click.Choice(list(_SUFFIX), case_sensitive=False),
+    "--language",
+    "-l",
+    required=True,
+    type=click.Choice(list(_SUFFIX), case_sensitive=False),
     help="Language of the routine.",
 )
 @click.option(
-    "--dir", "-d", "folder", type=click.Path(file_okay=False, path_type=Path), default=Path("."),
+    "--dir",
+    "-d",
+    "folder",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("."),
     help="Folder of the files; made if it is not there.",
 )
 @common("new")

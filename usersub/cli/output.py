@@ -119,12 +119,18 @@ def _table(
     from rich.text import Text
 
     table = Table(
-        title=title or None, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD,
-        collapse_padding=True, pad_edge=False,
+        title=title or None,
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        collapse_padding=True,
+        pad_edge=False,
     )
     for name in columns:
         table.add_column(
-            name, justify="right" if name in right else "left", overflow="fold",
+            name,
+            justify="right" if name in right else "left",
+            overflow="fold",
             no_wrap=name not in wrap,
         )
     for count, row in enumerate(rows):
@@ -162,8 +168,12 @@ def progress(label: str, quiet: bool) -> Iterator[Callable[..., None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     with Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
-        console=console(error=True), transient=True,
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=console(error=True),
+        transient=True,
     ) as bar:
         task = bar.add_task(label, total=None)
 

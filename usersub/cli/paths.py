@@ -18,9 +18,11 @@ _MEANING = {
 
 
 @click.command(
-    "paths", cls=Examples,
+    "paths",
+    cls=Examples,
     examples=(
-        "usersub paths", "cmake -S . -B build -DCMAKE_PREFIX_PATH=$(usersub paths --prefix)",
+        "usersub paths",
+        "cmake -S . -B build -DCMAKE_PREFIX_PATH=$(usersub paths --prefix)",
         "cc host.c -I$(usersub paths --include) $(usersub paths --library)",
     ),
 )

@@ -18,9 +18,11 @@ _HIDDEN = ("sed", "sfd", "dslip", "stick_force", "force")
 
 
 @click.command(
-    "run", cls=Examples,
+    "run",
+    cls=Examples,
     examples=(
-        "usersub run my_friction.toml", "usersub run my_friction.toml --plan",
+        "usersub run my_friction.toml",
+        "usersub run my_friction.toml --plan",
         "usersub run my_friction.toml --json",
     ),
 )
@@ -47,9 +49,16 @@ def command(scene: Path, show_plan: bool, everything: bool, as_json: bool) -> in
     elif as_json:
         history = run.history
         print_json(
-            "run", history.rows(), ok=run.ok, written=written, notes=history.notes,
-            cut_backs=history.cut_backs, routine=history.routine, interface=history.interface,
-            language=history.language, precision=history.precision,
+            "run",
+            history.rows(),
+            ok=run.ok,
+            written=written,
+            notes=history.notes,
+            cut_backs=history.cut_backs,
+            routine=history.routine,
+            interface=history.interface,
+            language=history.language,
+            precision=history.precision,
         )
     else:
         _print_history(run.history, everything)

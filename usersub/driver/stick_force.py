@@ -19,7 +19,7 @@ def stick_force_kinematic(
     *,
     out: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Force that takes the predicted tangential velocity to zero in the increment: m |v_t| / dt.
+    """Force that takes the predicted tangential velocity to zero in the increment: ``m |v_t| / dt``.
 
     Args:
         velocity: predicted relative velocity, shape (D, N), Fortran-ordered, float64 or float32.
@@ -53,7 +53,7 @@ def stick_force_penalty(
     *,
     out: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Elastic trial force of penalty enforcement: | F_previous - stiffness ds_t |.
+    """Elastic trial force of penalty enforcement: ``|F_previous - stiffness ds_t|``.
 
     Args:
         previous_force: friction force of the previous increment, shape (D, N), Fortran-ordered.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from usersub import abi, ports
 from usersub.emit import text
+from usersub.emit.field_files import LONGEST_BLOCK
 
 FOLDER = "csrc/driver/"
 
@@ -57,6 +58,8 @@ def _numbers() -> str:
             "What a routine may do with an argument; the numbers of usub_routine_set_uses.",
             [(f"USUB_INTENT_{name.upper()}", value) for name, value in INTENTS.items()],
         ),
+        "/* maxblk of the include files: routines have local arrays of this length. */\n"
+        f"#define USUB_LONGEST_BLOCK {LONGEST_BLOCK}\n",
         "#endif\n",
     ]
     return "\n".join(parts)

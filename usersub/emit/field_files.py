@@ -14,8 +14,11 @@ from usersub.emit import abi_header, text
 
 FOLDER = "csrc/include/usersub/field/"
 
-#: Length of the vectors that explicit user subroutines are blocked into.
+#: Length of the vectors of explicit user subroutines (n_vec_Length), as in older releases.
 VECTOR_LENGTH = 136
+#: Most points of a call (maxblk), as in newer releases. Routines have local arrays of this length,
+#: so that no plan may choose longer blocks.
+LONGEST_BLOCK = 512
 
 _INT, _INT8, _REAL4, _REAL8 = "integer", "integer(8)", "real(4)", "real(8)"
 
@@ -63,7 +66,7 @@ def _explicit_rule(precision: str) -> str:
             f"implicit {kind} (a-h,o-z)",
             f"parameter (j_sys_Dimension={number})",
             f"parameter (n_vec_Length={VECTOR_LENGTH})",
-            "parameter (maxblk=n_vec_Length)",
+            f"parameter (maxblk={LONGEST_BLOCK})",
         ]
     )
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from usersub import abi, ports
 from usersub.statuses import STATUSES
 
@@ -33,7 +35,7 @@ def _page(heading: str, *parts: str) -> str:
     return "\n\n".join([f"{comment}\n# {heading}", *parts]) + "\n"
 
 
-def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def _table(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
     lines = [head, tuple("---" for _ in head), *rows]
     return "\n".join("| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in lines)
 

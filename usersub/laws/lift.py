@@ -5,7 +5,7 @@ A law is a function of one contact point that returns the coefficient (or the sh
 its derivatives by slip rate, pressure and temperature::
 
     def exponential_decay(slip_rate, _pressure, _temperature, props):
-        transition = (props[0] - props[1]) * exp_decay(props[2] * slip_rate)
+        transition = (props[0] - props[1]) * bounded_exp(-props[2] * slip_rate)
         return props[1] + transition, -props[2] * transition, 0.0, 0.0
 
     fric, fric_coef, vfric, vfriction, vfric_coef = coefficient_law(exponential_decay, props=3)
@@ -25,11 +25,10 @@ from collections.abc import Callable
 from usersub.laws.lift_fric import coefficient_fric, traction_fric
 from usersub.routine.python import PythonRoutine, fric_coef, vfric, vfric_coef, vfriction
 
-__all__ = ["coefficient_law", "exp_decay", "jitable", "traction_law"]
+__all__ = ["coefficient_law", "bounded_exp", "jitable", "traction_law"]
 
-#: exp(-x) is a normal number up to here; beyond it nothing is left that a coefficient could show.
-_EXP_BOUND = 700.0
-_EXP_LEAST = math.exp(-_EXP_BOUND)
+#: exp(x) is a normal number down to here; below nothing is left that a coefficient could show.
+_EXP_BOUND = -700.0
 
 _VARIABLES = ("slip_rate", "pressure", "temperature")
 
@@ -51,9 +50,9 @@ def jitable(function: Callable) -> Callable:
     return register_jitable(function)
 
 
-def exp_decay(x):
-    """exp(-x) for x >= 0, without the slow numbers below the normal ones."""
-    return math.exp(-x) if x < _EXP_BOUND else _EXP_LEAST
+def bounded_exp(x):
+    """exp(x) for x <= 0, without the slow numbers below the normal ones."""
+    return math.exp(max(x, _EXP_BOUND))
 
 
 def _ratio(numerator, denominator):
@@ -76,7 +75,8 @@ class _Law:
         self.reads = [n == v for v, n in zip(_VARIABLES, names, strict=False)]
         self.origin = f"{function.__code__.co_filename}:{function.__code__.co_firstlineno}"
         self.needed = jitable(props if callable(props) else lambda _: props)
-        self.exp_decay, self.ratio = jitable(exp_decay), jitable(_ratio)
+        self.ratio = jitable(_ratio)
+        jitable(bounded_exp)
 
     def finish(self, routine: PythonRoutine) -> PythonRoutine:
         """Names the routine after the law and leaves out what the law does not read."""

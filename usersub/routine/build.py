@@ -7,6 +7,7 @@ import json
 import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from usersub import abi
 from usersub.errors import CompileError, LoadError
@@ -14,7 +15,7 @@ from usersub.routine import cache, compilers, debuginfo, objects
 from usersub.routine.support import Support
 
 #: Version of what is stored of a build; part of every key.
-RECORD = "4"
+RECORD = "7"
 _UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
 
 
@@ -77,7 +78,7 @@ def recall(library: Path, source: Path) -> Build | None:
     """The build of an earlier time, or None."""
     record = library.with_suffix(".json")
     try:
-        stored = json.loads(record.read_text(encoding="utf-8"))
+        stored: dict[str, Any] = json.loads(record.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
     if stored.pop("record", None) != RECORD or not library.is_file():
@@ -92,17 +93,9 @@ def recall(library: Path, source: Path) -> Build | None:
         )
         for symbol, s in stored.pop("signatures").items()
     }
-    unused = {symbol: tuple(positions) for symbol, positions in stored.pop("unused").items()}
-    guarded = stored.pop("guarded")
-    lists = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
-    return Build(
-        library=library,
-        source=source,
-        signatures=signatures,
-        unused=unused,
-        guarded=guarded,
-        **lists,
-    )
+    stored["unused"] = {s: tuple(positions) for s, positions in stored["unused"].items()}
+    lists: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in stored.items()}
+    return Build(library=library, source=source, signatures=signatures, **lists)
 
 
 def remember(build: Build) -> None:

@@ -23,7 +23,7 @@ _OF_LANGUAGE = {
     "c": ("-std=gnu11", "-Werror=implicit-function-declaration"),
     "c++": ("-std=gnu++17",),
 }
-_WARNINGS = ("-Wunused-parameter", "-fno-diagnostics-show-caret")
+_WARNINGS = ("-Wunused-parameter",)
 
 
 def flags(language: str, precision: str) -> tuple[str, ...]:

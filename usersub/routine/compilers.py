@@ -73,38 +73,30 @@ def find(language: str) -> Compiler:
 @functools.lru_cache(maxsize=32)
 def _find(language: str, named: str, search: str) -> Compiler:
     variable, programs, install = _KNOWN[language]
+    candidates: list[tuple[str, ...]] = []
     if named.strip():
-        command = shlex.split(named)
-        where = shutil.which(command[0], path=search)
+        words = shlex.split(named)
+        where = shutil.which(words[0], path=search)
         if where is None:
             raise MissingTool(
-                f"{variable} names the {_TITLE[language]} compiler '{command[0]}', which is not "
+                f"{variable} names the {_TITLE[language]} compiler '{words[0]}', which is not "
                 f"there; unset {variable} or install one with {install}"
             )
-        return _describe(language, (where, *command[1:]), variable)
-    for program in programs:
-        where = shutil.which(program, path=search)
-        if where is not None:
-            return _describe(language, (where,), "PATH")
+        candidates.append((where, *words[1:]))
+    candidates += [(w,) for program in programs if (w := shutil.which(program, path=search))]
     if language != "fortran" and importlib.util.find_spec("ziglang") is not None:
-        return _describe(language, (sys.executable, "-m", "ziglang", language), "ziglang")
+        word = "cc" if language == "c" else "c++"
+        candidates.append((sys.executable, "-m", "ziglang", word))
+    for command in candidates:
+        lines = [s for s in map(str.strip, run((*command, "--version")).text.splitlines()) if s]
+        # Of Fortran compilers only gfortran will do, even if FC names another one.
+        if language != "fortran" or any("GNU Fortran" in line for line in lines):
+            return Compiler(language, tuple(command), lines[0] if lines else command[0])
+    other = f"; '{named}' of {variable} is another compiler" if candidates else ""
     raise MissingTool(
-        f"no {_TITLE[language]} compiler was found (looked for {', '.join(programs)}); "
+        f"no {_TITLE[language]} compiler was found (looked for {', '.join(programs)}){other}; "
         f"install it with {install}"
     )
-
-
-def _describe(language: str, command: tuple[str, ...], origin: str) -> Compiler:
-    if command[-2:] in (("ziglang", "c"), ("ziglang", "c++")):
-        command = (*command[:-1], "cc" if command[-1] == "c" else "c++")
-    text = run((*command, "--version")).text
-    if language == "fortran" and "GNU Fortran" not in text:
-        raise MissingTool(
-            f"the Fortran compiler '{command[0]}' (from {origin}) is not gfortran, which usersub "
-            f"needs; install it with {_KNOWN[language][2]} and set FC=gfortran"
-        )
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    return Compiler(language, command, lines[0] if lines else command[0])
 
 
 def run(command: Sequence[str], folder: Path | None = None) -> Outcome:
@@ -137,13 +129,17 @@ _WORDS = re.compile(r"^(?P<where>[^\s:][^:]*:\d+(?::\d+)?): *(?P<what>(?:fatal )
 
 def refusal(compiler: Compiler, source: Path, outcome: Outcome) -> CompileError:
     """The error of a failed compilation: places and the compiler's words, five at most."""
-    words = list(
-        dict.fromkeys(
-            f"{m['where']}: {m['what'].split(':', 1)[1].strip().removesuffix('.')}"
-            for m in map(_WORDS.match, outcome.text.splitlines())
-            if m
-        )
-    )
+    words: list[str] = []
+    place = ""
+    for found in filter(None, map(_WORDS.match, outcome.text.splitlines())):
+        what = found["what"].split(":", 1)[1].strip().removesuffix(".")
+        if what == "(1)":
+            # gfortran names the first of two places alone, and the second with the sentence.
+            place = found["where"]
+            continue
+        words.append(f"{place or found['where']}: {what}")
+        place = ""
+    words = list(dict.fromkeys(words))
     if not words:
         lines = [line for line in outcome.text.splitlines() if line.strip()]
         words = lines[-3:] or [f"exit code {outcome.code}"]

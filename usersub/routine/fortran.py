@@ -16,7 +16,15 @@ _FLAGS = (
     "-O2", "-g", "-fPIC", "-ffp-contract=off", "-fno-semantic-interposition", "-ffunction-sections",
     "-cpp", "-std=legacy", "-fcray-pointer", "-fallow-argument-mismatch", "-frecursive",
 )  # fmt: skip
-_WARNINGS = ("-Wunused-dummy-argument", "-fno-diagnostics-show-caret", "-fmax-errors=20")
+_WARNINGS = (
+    "-Wunused-dummy-argument", "-fno-diagnostics-show-caret", "-fmax-errors=20",
+    "-Wframe-larger-than=2000000",
+)  # fmt: skip
+#: Extensions of other compilers (STRUCTURE, STATIC, TYPE *, ...) that change nothing that compiles.
+_VENDOR = ("-fdec", "-fallow-invalid-boz")
+#: Instead of -frecursive, for local arrays that no stack holds: they become static, and the routine
+#: is run in one thread like any other with static data.
+_LARGE_ARRAYS_STATIC = "-fmax-stack-var-size=1000000"
 
 
 def flags(free: bool, precision: str) -> tuple[str, ...]:
@@ -70,14 +78,17 @@ def _compile(
             f"-J{folder}",
             *(f"-I{p}" for p in (*base.include_folders(precision), source.parent)),
         )
-        command = [*compiler.command, *chosen, *places]
-        outcome = compilers.run([*command, *_WARNINGS, "-c", prepared.main, "-o", "main.o"], folder)
+        chosen, outcome = _first_that_works(compiler, prepared, chosen, places, folder)
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
+        command = [*compiler.command, *chosen, *places]
         part = folder / "main.o"
         contents = objects.read(part)
         found = debuginfo.signatures(part, build.interface_symbols())
         heads = _units(compiler, command, prepared, folder) if found else []
+        if any(s.code.startswith("entry") for unit in heads for s in unit.statements):
+            # gfortran describes the functions of a unit with ENTRY without their arguments.
+            found = {symbol: s for symbol, s in found.items() if s.parameters}
         result = Build(
             library=target,
             source=source,
@@ -94,6 +105,36 @@ def _compile(
         )
         build.remember(result)
         return result
+
+
+def _first_that_works(
+    compiler: compilers.Compiler,
+    prepared: Prepared,
+    chosen: tuple[str, ...],
+    places: tuple[str, ...],
+    folder: Path,
+) -> tuple[tuple[str, ...], compilers.Outcome]:
+    """Compiles to `main.o`; the flags that did it, and the compiler's words.
+
+    Other flags are tried only where the usual ones fail or make a frame that no stack holds; if
+    nothing helps, the words are those of the usual flags.
+    """
+
+    def attempt(tried: tuple[str, ...]) -> compilers.Outcome:
+        command = [*compiler.command, *tried, *places, *_WARNINGS]
+        return compilers.run([*command, "-c", prepared.main, "-o", "main.o"], folder)
+
+    outcome = attempt(chosen)
+    if outcome.code:
+        extended = (*chosen, *_VENDOR)
+        second = attempt(extended)
+        if second.code:
+            return chosen, outcome
+        chosen, outcome = extended, second
+    if "-Wframe-larger-than" in outcome.text:
+        chosen = (*(f for f in chosen if f != "-frecursive"), _LARGE_ARRAYS_STATIC)
+        outcome = attempt(chosen)
+    return chosen, outcome
 
 
 def _units(

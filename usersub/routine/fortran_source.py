@@ -45,7 +45,7 @@ def prepare(source: Path, folders: tuple[Path, ...]) -> Prepared:
     copier = _Copier(folders, free)
     main = "usub_main.F90" if free else "usub_main.F"
     copier.files[main] = b""
-    copier.files[main] = copier.copy(text, source.name, source.parent, 0)
+    copier.files[main], _ = copier.copy(text, source.name, source.parent, 0)
     return Prepared(copier.files, main, free)
 
 
@@ -100,11 +100,13 @@ class _Copier:
         self._typing: set[str] = set()
         self._known = declarations(folders)
 
-    def copy(self, text: str, name: str, folder: Path, depth: int) -> bytes:
-        """The copy of one file, with a marker for its name in front."""
+    def copy(self, text: str, name: str, folder: Path, depth: int) -> tuple[bytes, bool]:
+        """The copy of one file, with a marker for its name in front, and whether it or a file that
+        it includes sets implicit types."""
         if depth > _DEEPEST:
             raise CompileError(f"{name}: include files are nested deeper than {_DEEPEST}")
-        lines, typing = [], []
+        lines: list[str] = []
+        typing: list[int] = []
         for index, line in enumerate(text.splitlines()):
             included = fortran_text.include_of(line)
             if included is not None:
@@ -116,14 +118,16 @@ class _Copier:
             elif line.rstrip().endswith("\\") and "!" in line:
                 line = line.rstrip().rstrip("\\")
             lines.append(line)
-        shown = name.replace('"', "_").replace("\\", "_")
+        # Markers have to come back the same from the preprocessor, which escapes other characters.
+        shown = re.sub(r"[^\w.,;+()' -]", "_", name, flags=re.ASCII)
         made = [f'# 1 "{shown}"']
         added = self._added("\n".join(lines), typing, name)
         for index, line in enumerate(lines):
             made.append(line)
             if index in added:
                 made += [*added[index], f'# {index + 2} "{shown}"']
-        return ("\n".join(made) + "\n").encode("latin-1")
+        types = bool(typing or _IMPLICIT.search(text))
+        return ("\n".join(made) + "\n").encode("latin-1"), types
 
     def _include(self, line: str, name: str, folder: Path, depth: int) -> tuple[str, bool]:
         """The line with the name of the copy, and whether the file sets implicit types."""
@@ -136,9 +140,9 @@ class _Copier:
             made = f"usub_{len(self._names)}.inc"
             self._names[path] = made
             text = _read(path)
-            if _IMPLICIT.search(text):
+            self.files[made], types = self.copy(text, path.name, path.parent, depth + 1)
+            if types:
                 self._typing.add(made)
-            self.files[made] = self.copy(text, path.name, path.parent, depth + 1)
         made = self._names[path]
         if depth and made not in self.files:
             raise CompileError(f"{path.name}: the file includes itself")

@@ -11,7 +11,7 @@ _DIRECTIVE = re.compile(r"^(?:[cC*!]|\s*!)(?:dec|dir)\$\s*(no)?(freeform|fixedfo
 _SENTINEL = re.compile(r"^(?:[cC*!]|\s*!)(?:\$|gcc\$)", re.I)
 _DEBUG = re.compile(r"^[dD](?:[ \d]*\t|[ \d]{5})")
 _MARKER = re.compile(r'^#\s*(?:line\s+)?(\d+)\s+"([^"]*)"')
-_INCLUDE = re.compile(r"""^\s*(#\s*)?include\s*(['"<])\s*([^'">]+?)\s*['">]\s*$""", re.I)
+_INCLUDE = re.compile(r"""^\s*(#\s*)?include\s*(['"<])\s*([^'">]+?)\s*['">]\s*(?:!.*)?$""", re.I)
 
 
 @dataclass(frozen=True)

@@ -30,9 +30,10 @@ def examine(path: Path, precision: str) -> Build:
     if not path.is_file():
         raise LoadError(f"the library {path} is not there")
     contents = objects.read(path)
-    target, absent = path, ()
+    target = path
+    absent: tuple[str, ...] = ()
     if path.suffix.lower() in OBJECT_SUFFIXES:
-        target, absent = _linked(path)
+        target, absent = _linked(path, contents.missing)
     return Build(
         library=target,
         source=path,
@@ -50,9 +51,15 @@ def examine(path: Path, precision: str) -> Build:
     )
 
 
-def _linked(path: Path) -> tuple[Path, tuple[str, ...]]:
+def _linked(path: Path, missing: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:
+    """Links an object with the run-time library of its language."""
     base = support()
-    compiler = compilers.find("c")
+    language = "c"
+    if any(name.startswith("_gfortran_") for name in missing):
+        language = "fortran"
+    elif any(name.startswith(("__cxa_", "__gxx_", "_ZSt", "_ZNSt")) for name in missing):
+        language = "c++"
+    compiler = compilers.find(language)
     target = cache.path(path.stem, cache.key("object", *base.link_flags, path.read_bytes()), ".so")
     if target.is_file():
         return target, ()

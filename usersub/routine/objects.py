@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from usersub.errors import LoadError
 
@@ -144,7 +145,7 @@ def reached(path: Path, start: Iterable[str]) -> set[str]:
     from elftools.elf.elffile import ELFFile
 
     with path.open("rb") as file:
-        elf = ELFFile(file)
+        elf: Any = ELFFile(file)
         symbols = list(elf.get_section_by_name(".symtab").iter_symbols())
         edges: dict[int, set[int]] = {}
         for section in elf.iter_sections():

@@ -253,16 +253,16 @@ def inline(where: str, given: dict[str, object]) -> ArraySource:
     """Columns that stand in the scene file itself."""
     arrays = {}
     for name, value in given.items():
+        wrong = SceneError(
+            f"{where} {name} = {show(value)} must be a finite number or an array of finite "
+            "numbers in which all rows are equally long"
+        )
+        if not _all_numbers(value):
+            raise wrong
         try:
-            array = np.array(value)
+            arrays[name] = np.array(value, dtype=float)
         except ValueError:
-            array = np.array("ragged")
-        if not _all_numbers(value) or array.dtype.kind not in "fiu":
-            raise SceneError(
-                f"{where} {name} = {show(value)} must be a finite number or an array of finite "
-                "numbers in which all rows are equally long"
-            )
-        arrays[name] = array.astype(float)
+            raise wrong from None
     return ArraySource(where, arrays)
 
 

@@ -13,6 +13,7 @@ The stick force, which a host gets from its own contact algorithm, follows one o
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Any
 
 import numpy as np
 
@@ -46,7 +47,7 @@ class _Run:
         self.model = FlatModel(result.interface, settings, reach)
         self.force = np.zeros((self.dimension, history.points))
         self.dissipation = np.zeros(history.points)
-        self.kept: dict[str, list[np.ndarray]] = defaultdict(list)
+        self.kept: dict[str, list[Any]] = defaultdict(list)
         self.increment = 0
 
     def all(self) -> None:

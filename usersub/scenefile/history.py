@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ KEYS: dict[str, tuple[str, object, str]] = {
     "cut_backs": ("int", 10, "how often an increment may be halved (standard)"),
     "iterations": ("int", 5, "iterations of an increment, at most, until LM settles (standard)"),
     "stick_stiffness": ("real", None, "stick force by penalty: force per slip (explicit)"),
-    "mass": ("real", None, "stick force of a mass at the point: m |ds| / dt^2 (explicit)"),
+    "mass": ("real", None, "stick force that stops a mass: mass times slip / dt^2 (explicit)"),
 }
 
 _EITHER = (("slip", "slip_increment"), ("pressure", "normal_force"))
@@ -73,7 +74,7 @@ class Given:
 
     table: Table
     sources: tuple[Source, ...]
-    values: dict[str, object]
+    values: dict[str, Any]
 
     @property
     def names(self) -> list[str]:
@@ -101,7 +102,7 @@ def take_history(table: Table, folder: Path) -> Given:
         path = folder / str(values["file"])
         readers = {".csv": CsvSource, ".npz": read_npz}
         if path.suffix.lower() not in readers:
-            raise table.error(f"file = \"{values['file']}\" must end in .csv or .npz")
+            raise table.error(f'file = "{values["file"]}" must end in .csv or .npz')
         sources.append(readers[path.suffix.lower()](path))
     twice = sorted(set(sources[0].names()) & set(sources[-1].names())) if sources[1:] else []
     if twice:
@@ -152,10 +153,12 @@ def complete(given: Given, points: int, directions: int, fields: int) -> History
     if area.min() <= 0.0:
         raise table.error(f"area = {area.min():g} must be positive")
     pressure, force = get("pressure"), get("normal_force")
+    if pressure is None:
+        pressure = force / area  # type: ignore[operator] # one of the two is given
     return History(
         time=time,
         slip=_slip(table, get("slip"), get("slip_increment")),
-        pressure=force / area if pressure is None else pressure,
+        pressure=pressure,
         normal_force=pressure * area if force is None else force,
         area=area,
         temperature=_sides(get, "temperature"),
@@ -169,6 +172,7 @@ def complete(given: Given, points: int, directions: int, fields: int) -> History
 def _slip(table: Table, slip: np.ndarray | None, increment: np.ndarray | None) -> np.ndarray:
     if slip is not None:
         return slip - slip[0]
+    assert increment is not None  # one of the two is given
     if np.any(increment[0] != 0.0):
         raise table.error(
             f"slip_increment of the first row is {increment[0].ravel().tolist()}, expected 0: the "

@@ -16,7 +16,18 @@ from usersub.scenefile.tables import Table, nearest, show
 
 #: Suffixes of files that hold routines.
 SUFFIXES = (
-    ".py", ".c", ".cc", ".cpp", ".cxx", ".f", ".for", ".f90", ".F", ".FOR", ".F90", ".so",
+    ".py",
+    ".c",
+    ".cc",
+    ".cpp",
+    ".cxx",
+    ".f",
+    ".for",
+    ".f90",
+    ".F",
+    ".FOR",
+    ".F90",
+    ".so",
 )
 LANGUAGES = ("python", "c", "fortran")
 _TOP = ("routine", "interface", "generation", "language", "props")
@@ -159,8 +170,10 @@ def _settings(table: Table) -> dict[str, Any]:
 
 #: Keys that a problem knows but that stand elsewhere in a scene file.
 _ELSEWHERE = {
-    "routine": "at the top of the file", "law": "at the top of the file, as 'routine',",
-    "interface": "at the top of the file", "language": "at the top of the file",
+    "routine": "at the top of the file",
+    "law": "at the top of the file, as 'routine',",
+    "interface": "at the top of the file",
+    "language": "at the top of the file",
     "precision": "in [scene]",
 }
 

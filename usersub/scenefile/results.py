@@ -79,7 +79,7 @@ class HistoryResult:
     def write_npz(self, path: Path) -> None:
         """Writes the columns as they are."""
         with _open(path, "wb") as stream:
-            np.savez(stream, **self.columns)
+            np.savez(stream, **self.columns)  # type: ignore[arg-type]
 
 
 @dataclass
@@ -100,7 +100,7 @@ class Columns:
     def write_npz(self, path: Path) -> None:
         """Writes the columns as they are."""
         with _open(path, "wb") as stream:
-            np.savez(stream, **self.columns)
+            np.savez(stream, **self.columns)  # type: ignore[arg-type]
 
 
 def _open(path: Path, mode: str):

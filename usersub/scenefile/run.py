@@ -99,6 +99,7 @@ def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
 def _run_problem(scene_file: SceneFile) -> Run:
     from usersub import problems
 
+    assert scene_file.problem is not None
     name, given = scene_file.problem
     options = {"precision": "double", **scene_file.settings, **given}
     if scene_file.routine is not None:
@@ -118,11 +119,11 @@ def _run_problem(scene_file: SceneFile) -> Run:
 
 
 def _write(run: Run) -> None:
-    """Writes the files of [output]; of a problem, the first of its results that has a history."""
+    """Writes the files of [output]."""
     output = run.scene_file.output
     if not output.files:
         return
-    history = run.history or _problem_history(run)
+    history = _problem_history(run) if run.history is None else run.history
     if output.csv is not None:
         history.write_csv(output.csv)
     if output.npz is not None:
@@ -135,10 +136,10 @@ def _write(run: Run) -> None:
 
 
 def _problem_history(run: Run) -> results.Columns:
-    histories = [r.history for r in run.problem if getattr(r, "history", None)]
-    if not histories:
+    outcome = run.problem[0]
+    if not outcome.history:
         raise errors.SceneError(
             f"{run.scene_file.path}: [output] asks for {run.scene_file.output.files[0].name}, but "
-            f"the problem '{run.scene_file.problem[0]}' gives no history"
+            f"the problem {outcome.problem} gives no history"
         )
-    return results.Columns(run.scene_file.problem[0], histories[0])
+    return results.Columns(outcome.problem, dict(outcome.history))

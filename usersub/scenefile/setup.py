@@ -26,11 +26,12 @@ def routine_of(scene_file: SceneFile) -> Routine:
         return _built_in(scene_file, precision)
     if scene_file.language is not None:
         raise SceneError(
-            f"{path}: language = \"{scene_file.language}\" is for built-in laws; the language of "
+            f'{path}: language = "{scene_file.language}" is for built-in laws; the language of '
             f"{scene_file.routine} follows from its suffix"
         )
     import usersub
 
+    assert scene_file.routine is not None  # the reader has seen to it
     file = usersub.load(
         scene_file.routine,
         precision=precision,
@@ -40,7 +41,7 @@ def routine_of(scene_file: SceneFile) -> Routine:
     if interface is None and len(file) > 1:
         raise SceneError(
             f"{path}: {scene_file.routine} holds {', '.join(file)}; say which with "
-            f"interface = \"{next(iter(file))}\""
+            f'interface = "{next(iter(file))}"'
         )
     return file.only()
 
@@ -48,10 +49,11 @@ def routine_of(scene_file: SceneFile) -> Routine:
 def _built_in(scene_file: SceneFile, precision: str) -> Routine:
     from usersub import laws
 
+    assert scene_file.law is not None
     if scene_file.law not in laws.LAWS:
         hint = nearest(scene_file.law, laws.LAWS) or "."
         raise SceneError(
-            f"{scene_file.path}: routine = \"{scene_file.law}\" is neither a file nor a built-in "
+            f'{scene_file.path}: routine = "{scene_file.law}" is neither a file nor a built-in '
             f"law{hint} Built-in laws: {', '.join(laws.LAWS)}"
         )
     if scene_file.interface is None:
@@ -70,6 +72,7 @@ def history_of(scene_file: SceneFile, interface: abi.Interface) -> tuple[dict[st
     them.
     """
     given = scene_file.history
+    assert given is not None
     settings = dict(scene_file.settings)
     names = given.names
     explicit = interface.solver == "explicit"

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Any
 
 import numpy as np
 
@@ -36,9 +37,9 @@ class _Run:
         self.bound = Bound(driver, result.interface, result.precision)
         self.dimension = settings["dimension"]
         self.states = settings.get("states", 0)
-        self.kept: dict[str, list[np.ndarray]] = defaultdict(list)
+        self.kept: dict[str, list[Any]] = defaultdict(list)
         self.increment = 0
-        self.rough = 0
+        self.rough = self.unsettled = 0
 
     def all(self) -> None:
         """Every row, then the columns."""
@@ -50,6 +51,11 @@ class _Run:
                 self._take(row, part / self.history.substeps, (part + 1) / self.history.substeps, 0)
             self.progress(row + 1, rows)
         self.result.columns = {k: np.array(v) for k, v in self.kept.items()}
+        if self.unsettled:
+            self.result.notes.append(
+                f"in {self.unsettled} increments LM still changed after {self.history.iterations} "
+                "iterations"
+            )
         if self.rough:
             self.result.notes.append(
                 f"{self.rough} times a point asked for no relative motion (LM = 1) while the "
@@ -101,6 +107,7 @@ class _Run:
             entry = np.array(answer.lm)
             if settled:
                 break
+        self.unsettled += not settled
         self._keep(now, answer, last)
         driver.commit()
         if self.states:

@@ -97,9 +97,12 @@ class Table:
 
 def is_number(value: object) -> bool:
     """A finite number, and no truth value."""
-    return (
-        isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    )
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an integer that no float holds
+        return False
 
 
 def _is_int(value: object) -> bool:

@@ -18,11 +18,13 @@ extern "C" {
 void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
   if (!USUB_EXPLICIT_PROPS("VFRIC_COEF"))
     return;
-  for (int k = 0; k < *nBlock; ++k) {
-    fCoef[k] =
-        usub_law(USUB_RATE(slipRate[k]), USUB_PRESSURE(pressure[k]),
-                 USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : (usub_real)0), props, *nProps, NULL);
-  }
+  /* Arguments never overlap; saying so keeps the properties in registers. */
+  usub_real *USUB_RESTRICT mu = fCoef;
+  const usub_real *USUB_RESTRICT own = props;
+  const int n = *nBlock, count = *nProps;
+  for (int k = 0; k < n; ++k)
+    mu[k] = usub_law(USUB_RATE(slipRate[k]), USUB_PRESSURE(pressure[k]),
+                     USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : (usub_real)0), own, count, NULL);
 }
 
 #ifndef USUB_SINGLE
@@ -41,8 +43,8 @@ void FOR_NAME(fric_coef, FRIC_COEF)(USUB_FRIC_COEF_2022_PARAMETERS) {
 }
 
 #define USUB_STATES_TEXT                                                                           \
-  USUB_LAW " behind FRIC keeps its elastic slip in %I state variables, but the scene has %I."
-#define USUB_LENGTH_TEXT USUB_LAW " behind FRIC needs a characteristic length above zero."
+  USUB_LAW " behind FRIC keeps its elastic slip in %I state variables, but the scene has %I"
+#define USUB_LENGTH_TEXT USUB_LAW " behind FRIC needs a characteristic length above zero"
 
 /* Penalty enforcement of the coefficient, isotropic: the elastic predictor is the elastic slip at
  * the start of the increment plus the motion; up to the allowable elastic slip the point sticks

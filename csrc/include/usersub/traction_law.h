@@ -24,7 +24,7 @@ void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   if (*LM == 2)
     return; /* open so far: no friction in the increment that closes the point */
   if (!USUB_STANDARD_PROPS("FRIC", PROPS, *NPROPS) ||
-      !USUB_STANDARD_NEEDS(*DTIME > 0, USUB_LAW " behind FRIC needs a time increment.", 0, 0))
+      !USUB_STANDARD_NEEDS(*DTIME > 0, USUB_LAW " behind FRIC needs a time increment", 0, 0))
     return;
   *LM = 0;
 

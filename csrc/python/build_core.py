@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Writes the C source of `usersub._core`: `python -m usersub._build_core OUT`, called by CMake."""
+"""Writes the C source of `usersub._core`: `python build_core.py OUTPUT`, called by CMake."""
 
 from __future__ import annotations
 
 import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def main(output: str) -> None:
     """Writes the cffi (API mode) binding of libusersub to the file `output`."""
+    # The tables of this source tree: the hook of an editable installation that is in the
+    # environment would answer with those of another one.
+    sys.meta_path[:] = [finder for finder in sys.meta_path if isinstance(finder, type)]
+    sys.path.insert(0, str(ROOT))
     import cffi
 
     from usersub.emit.cdef import cdef_text
