@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -118,3 +119,15 @@ def test_refused_source_leaves_nothing(fresh, tmp_path):
         usersub.load(source)
     assert _libraries(fresh) == set()
     assert {p.name for p in tmp_path.iterdir()} == {"law.c", "cache"}
+
+
+def test_threads_that_load_the_same_file_at_once_agree(fresh):
+    def load(_) -> int:
+        return usersub.load(_FIELD / "vfric_coef_table.c").only().entry().address
+
+    with ThreadPoolExecutor(4) as pool:
+        places = set(pool.map(load, range(8)))
+    # Each name in the cache is one file; a second one of equal content may have been moved over it.
+    assert 0 not in places
+    assert {p.suffix for p in fresh.iterdir()} == {".so", ".json"}
+    assert len(_libraries(fresh)) == 2

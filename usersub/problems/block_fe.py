@@ -59,7 +59,7 @@ class FiniteElementBlock:
         highest = float(np.sqrt(np.linalg.eigvalsh(scaled)[-1]))
         self.damping = 2.0 * _DAMPING / highest
         stable = 2.0 / highest * (np.sqrt(1.0 + _DAMPING**2) - _DAMPING)
-        self.time_increment = self.share * stable
+        self.time_increment = float(self.share * stable)
         self.load = np.zeros(self.mass.size)
         self.load[1::d] = -self.block.pressure * self.block.area * mesh.top_load
         # The plane leaves rigid horizontal motion free: the least motion among the solutions.

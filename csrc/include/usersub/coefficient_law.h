@@ -15,16 +15,25 @@
 extern "C" {
 #endif
 
+/* Arguments never overlap; said of the parameters of a function of its own, it keeps the properties
+ * in registers. */
+static USUB_NOT_INLINED void
+usub_coefficients(usub_real *USUB_RESTRICT coefficient, int points,
+                  USUB_MAY_BE_UNUSED const usub_real *USUB_RESTRICT rate,
+                  USUB_MAY_BE_UNUSED const usub_real *USUB_RESTRICT pressure,
+                  USUB_MAY_BE_UNUSED const usub_real *USUB_RESTRICT temperature,
+                  const usub_real *USUB_RESTRICT props, int count) {
+  for (int k = 0; k < points; ++k)
+    coefficient[k] =
+        usub_law(USUB_RATE(rate[k]), USUB_PRESSURE(pressure[k]),
+                 USUB_TEMPERATURE(temperature ? temperature[k] : (usub_real)0), props, count, NULL);
+}
+
 void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
   if (!USUB_EXPLICIT_PROPS("VFRIC_COEF"))
     return;
-  /* Arguments never overlap; saying so keeps the properties in registers. */
-  usub_real *USUB_RESTRICT mu = fCoef;
-  const usub_real *USUB_RESTRICT own = props;
-  const int n = *nBlock, count = *nProps;
-  for (int k = 0; k < n; ++k)
-    mu[k] = usub_law(USUB_RATE(slipRate[k]), USUB_PRESSURE(pressure[k]),
-                     USUB_TEMPERATURE(*nTemp > 0 ? tempAvg[k] : (usub_real)0), own, count, NULL);
+  usub_coefficients(fCoef, *nBlock, USUB_RATE(slipRate), USUB_PRESSURE(pressure),
+                    USUB_TEMPERATURE(*nTemp > 0 ? tempAvg : NULL), props, *nProps);
 }
 
 #ifndef USUB_SINGLE

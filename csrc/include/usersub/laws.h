@@ -48,9 +48,11 @@ void xplb_exit_(void);
 #if defined(__GNUC__)
 #define USUB_MAY_BE_UNUSED __attribute__((unused))
 #define USUB_RESTRICT __restrict__
+#define USUB_NOT_INLINED __attribute__((noinline))
 #else
 #define USUB_MAY_BE_UNUSED
 #define USUB_RESTRICT
+#define USUB_NOT_INLINED
 #endif
 
 /* Opens the definition of the point function; below, its declaration. */
@@ -66,17 +68,17 @@ USUB_LAW_FUNCTION;
 #ifdef USUB_LAW_READS_RATE
 #define USUB_RATE(expression) (expression)
 #else
-#define USUB_RATE(expression) ((usub_real)0)
+#define USUB_RATE(expression) 0
 #endif
 #ifdef USUB_LAW_READS_PRESSURE
 #define USUB_PRESSURE(expression) (expression)
 #else
-#define USUB_PRESSURE(expression) ((usub_real)0)
+#define USUB_PRESSURE(expression) 0
 #endif
 #ifdef USUB_LAW_READS_TEMPERATURE
 #define USUB_TEMPERATURE(expression) (expression)
 #else
-#define USUB_TEMPERATURE(expression) ((usub_real)0)
+#define USUB_TEMPERATURE(expression) 0
 #endif
 
 /* exp(x) for x <= 0. The bound keeps the result a normal number: others are many times slower and
