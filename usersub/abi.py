@@ -198,7 +198,10 @@ _FRIC = (
         "readwrite",
     ),
     _real(
-        "SED", "", "energy/area", "elastic energy density, start to end of the increment",
+        "SED",
+        "",
+        "energy/area",
+        "elastic energy density, start to end of the increment",
         intent="readwrite",
     ),
     _real(
@@ -258,7 +261,9 @@ _FRIC = (
     _real("DTIME", "", "time", "time increment"),
     _int("NOEL", "element label of a contact element", "zero for surface contact"),
     _name("CINAME", "name of the interaction", "or of the contact element set"),
-    _name("SLNAME", "name of the secondary surface", "blank for contact elements", modern="SECNAME"),
+    _name(
+        "SLNAME", "name of the secondary surface", "blank for contact elements", modern="SECNAME"
+    ),
     _name("MSNAME", "name of the main surface", "blank for contact elements", modern="MAINNAME"),
     _int("NPT", "integration point of a contact element", "zero for surface contact"),
     _int("NODE", "number of the secondary node", "zero for contact elements"),
@@ -418,7 +423,10 @@ _VFRIC = (
         intent="write",
     ),
     _real(
-        "statev", "nStateVar,nSlvNod", "any", "state variables by secondary surface node",
+        "statev",
+        "nStateVar,nSlvNod",
+        "any",
+        "state variables by secondary surface node",
         intent="readwrite",
     ),
     _int("kStep", "step number"),
@@ -483,7 +491,9 @@ _VFRIC = (
         "friction force of the previous increment in the current local axes",
         "zero for points that were open",
     ),
-    _real("fNormal", "nContact", "force", "normal force, not negative", "at the end of the increment"),
+    _real(
+        "fNormal", "nContact", "force", "normal force, not negative", "at the end of the increment"
+    ),
     _real(
         "frictionWork", "", "energy", "frictional dissipation so far", "total of the whole model"
     ),
@@ -495,7 +505,10 @@ _VFRIC = (
         "read from its name and dimensions",
     ),
     _real(
-        "coordSlv", "nDir,nSlvNod", "length", "coordinates of the secondary nodes",
+        "coordSlv",
+        "nDir,nSlvNod",
+        "length",
+        "coordinates of the secondary nodes",
         modern="coordSec",
     ),
     _real(
@@ -560,7 +573,10 @@ _VFRICTION = (
         intent="write",
     ),
     _real(
-        "state", "nStates,nNodState,nBlock", "any", "state variables of each contact point",
+        "state",
+        "nStates,nNodState,nBlock",
+        "any",
+        "state variables of each contact point",
         intent="readwrite",
     ),
     _int("nBlock", "number of contact points in the call"),

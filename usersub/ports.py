@@ -71,13 +71,18 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("points", "int", 1, "contact points that the driver holds, at most"),
     Setting("dimension", "int", 3, "coordinate directions: 2 or 3"),
     Setting(
-        "friction_directions", "int", 0,
+        "friction_directions",
+        "int",
+        0,
         "friction directions; 0 means dimension - 1. Standard only: 2 in an axisymmetric "
         "analysis with twist",
     ),
     Setting("precision", "text", "double", "precision of all real arrays", ("double", "single")),
     Setting(
-        "contact", "text", "node-to-facet", "kind of contact (explicit)",
+        "contact",
+        "text",
+        "node-to-facet",
+        "kind of contact (explicit)",
         ("node-to-facet", "edge-to-edge", "analytical-rigid"),
     ),
     Setting("secondary_nodes", "int", 0, "nodes of the secondary surface (VFRIC)"),
@@ -90,14 +95,15 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("secondary", "text", "", "name of the secondary surface"),
     Setting("main", "text", "", "name of the main surface"),
     Setting(
-        "generation", "text", "2022", "generation of FRIC_COEF that the host speaks",
+        "generation",
+        "text",
+        "2022",
+        "generation of FRIC_COEF that the host speaks",
         ("legacy", "2022"),
     ),
     Setting("anisotropic", "int", 0, "1 if FRIC_COEF sets two coefficients"),
     Setting("elastic_slip", "real", 0.0, "allowable elastic slip; 0 means by slip_tolerance"),
-    Setting(
-        "slip_tolerance", "real", 0.005, "allowable elastic slip over characteristic_length"
-    ),
+    Setting("slip_tolerance", "real", 0.005, "allowable elastic slip over characteristic_length"),
     Setting("characteristic_length", "real", 0.0, "characteristic contact face dimension"),
     Setting("shear_limit", "real", 0.0, "limit on the equivalent shear stress; 0 means none"),
     Setting("tangent", "int", 1, "1 if the host wants tangents (standard)"),
@@ -120,6 +126,8 @@ def _port(name, drivers, shape, role, unit, meaning, unbound="", kind="real"):
     return Port(name, drivers, kind, tuple(shape.split(",")), role, unit, meaning, unbound)
 
 
+# One array a line or two reads as a table; the formatter would make it five times as long.
+# fmt: off
 PORTS: tuple[Port, ...] = (
     # Standard.
     _port("slip_increment", _STANDARD, "F,N", "in", "length",
@@ -240,3 +248,4 @@ PORTS: tuple[Port, ...] = (
           "derivatives of the coefficient"),
     _port("state", _COEFFICIENT, "S,N", "state", "any", "state variables (FRIC_COEF of 2022)"),
 )
+# fmt: on

@@ -29,7 +29,10 @@ _ROUTINE = "mend the routine, or cut back; nothing has changed"
 STATUSES: tuple[Status, ...] = (
     Status("OK", 0, "success", "valid", "go on"),
     Status(
-        "CUT_BACK", 1, "a routine asks for a smaller time increment", "valid",
+        "CUT_BACK",
+        1,
+        "a routine asks for a smaller time increment",
+        "valid",
         "cut back and try PNEWDT times the increment",
     ),
     Status("BAD_ARGUMENT", -1, "an argument of the call is wrong", _NONE, _MEND),

@@ -153,6 +153,8 @@ def machine() -> str:
 def table(rows: list[Row]) -> str:
     """The rows as a Markdown page."""
     lines = [
+        "% SPDX-License-Identifier: MIT",
+        "",
         "# Benchmarks",
         "",
         "Written by `make bench`. Medians of interleaved rounds in one process; only the ratios",

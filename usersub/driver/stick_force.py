@@ -19,7 +19,7 @@ def stick_force_kinematic(
     *,
     out: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Force that takes the predicted tangential velocity to zero in the increment: ``m |v_t| / dt``.
+    """Force that takes the predicted tangential velocity to zero in the increment: ``m |v| / dt``.
 
     Args:
         velocity: predicted relative velocity, shape (D, N), Fortran-ordered, float64 or float32.
