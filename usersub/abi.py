@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 #: Version of the tables. A changed table needs a new line in `usersub/abi_versions.txt`.
@@ -85,7 +85,7 @@ class Interface:
     name: str
     generation: str
     solver: str
-    args: tuple[Arg, ...]
+    args: tuple[Arg, ...] = field(repr=False)
     purpose: str
     source: str = _PUBLISHED
     assumed: str = ""

@@ -1,238 +1,51 @@
 /* SPDX-License-Identifier: MIT */
-/* Making drivers and the calls that all kinds have in common. */
-#include <ctype.h>
+/* The calls that all kinds of drivers have in common. */
+#include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 #include "internal.h"
 
-static int max_int(int a, int b) { return a > b ? a : b; }
-
-/* Whether kind and interface go together. */
-static int fits(usub_kind_of_driver kind, const usub_interface *face) {
-  if (kind == USUB_KIND_OF_COEFFICIENT) return strstr(face->name, "_coef") != NULL;
-  return (kind == USUB_KIND_OF_STANDARD) == (face->standard != 0);
-}
-
-static int32_t parse_kind(const char *text, usub_kind_of_driver *kind) {
-  static const char *const names[] = {"standard", "explicit", "coefficient"};
-  for (int i = 0; text && i < 3; ++i) {
-    if (strcmp(text, names[i]) != 0) continue;
-    *kind = (usub_kind_of_driver)i;
-    return USUB_OK;
-  }
-  return USUB_BAD_ARGUMENT;
-}
-
-/* Refuses scenes that the interface cannot serve. */
-static int32_t check_scene(const usub_driver *driver, usub_error *error) {
-  const usub_settings *set = &driver->set;
-  const char *title = driver->title;
-  const int32_t key = usub_interface_key(driver->face);
-  if (set->points < 1)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: scene setting 'points' = %d; expected 1 or more", title, set->points);
-  if (set->dimension != 2 && set->dimension != 3)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: scene setting 'dimension' = %d; expected 2 or 3", title, set->dimension);
-  if (set->friction_directions > 2 || (set->friction_directions && !driver->face->standard && set->friction_directions != set->dimension - 1))
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: scene setting 'friction_directions' = %d; expected %d", title, set->friction_directions, set->dimension - 1);
-  if (set->threads < 1 || set->threads > 1024)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: scene setting 'threads' = %d; expected 1 to 1024", title, set->threads);
-  if (driver->single && driver->face->standard)
-    return usub_error_set(error, USUB_NOT_SUPPORTED, "%s exists in double precision only; scene setting 'precision' = 'single'", title);
-  if (driver->single != driver->routine.single)
-    return usub_error_set(error, USUB_ABI_MISMATCH, "%s: the routine is in %s precision, the scene in %s", title, driver->routine.single ? "single" : "double", set->precision);
-  if (key == USUB_INTERFACE_VFRICTION && set->dimension == 2)
-    return usub_error_set(error, USUB_NOT_SUPPORTED, "VFRICTION is three-dimensional; scene setting 'dimension' = 2: put a two-dimensional model into the plane z = 0");
-  if (key == USUB_INTERFACE_VFRIC && driver->edges)
-    return usub_error_set(error, USUB_NOT_SUPPORTED, "VFRIC knows nodes only; scene setting 'contact' = 'edge-to-edge': use VFRICTION");
-  if (key == USUB_INTERFACE_FRIC_COEF_2022 && driver->routine.generation_known && strcmp(set->generation, "legacy") == 0)
-    return usub_error_set(error, USUB_ABI_MISMATCH, "FRIC_COEF: the routine is of generation 2022 and would write beyond the arrays of a host of generation legacy; set the scene's 'generation' to 2022");
-  if (set->anisotropic && key != USUB_INTERFACE_FRIC_COEF_2022)
-    return usub_error_set(error, USUB_NOT_SUPPORTED, "%s returns one coefficient; scene setting 'anisotropic' = 1 needs FRIC_COEF of generation 2022", title);
-  if (strcmp(driver->face->name, "fric_coef") == 0 && driver->kind == USUB_KIND_OF_STANDARD && set->elastic_slip == 0 && set->slip_tolerance * set->characteristic_length == 0)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "FRIC_COEF: penalty enforcement needs the scene setting 'elastic_slip', or 'characteristic_length' (times 'slip_tolerance' = %g)", set->slip_tolerance);
-  return USUB_OK;
-}
-
-static void set_sizes(usub_driver *driver) {
-  const usub_settings *set = &driver->set;
-  usub_sizes *size = &driver->size;
-  const int is_vfric = usub_interface_key(driver->face) == USUB_INTERFACE_VFRIC;
-  size->real = driver->single ? sizeof(float) : sizeof(double);
-  size->N = set->points;
-  size->D = set->dimension;
-  size->F = set->friction_directions ? set->friction_directions : set->dimension - 1;
-  size->S = set->states;
-  size->P = set->fields;
-  size->A = driver->analytical ? 1 : size->N;
-  size->B = driver->edges ? 2 : 1;
-  const int32_t facet = driver->edges || size->D == 2 ? 2 : 4;
-  size->M = driver->analytical ? (is_vfric ? 0 : 1) : facet;
-  size->X = set->secondary_nodes;
-  size->Y = set->main_nodes;
-  size->Z = set->nodes;
-  size->T = driver->edges ? 4 : 1;
-  driver->counts = (usub_counts){.zero = 0, .one = 1, .N = size->N, .D = size->D, .F = size->F,
-                                 .S = size->S, .P = size->P, .T = size->T, .B = size->B,
-                                 .M = size->M, .X = size->X, .Y = size->Y,
-                                 .props = driver->prop_count,
-                                 .temperatures = set->temperatures != 0};
-}
-
-/* Points a call: what is gathered should stay in the nearest cache, zero-copy slices may be long. */
-static void choose_blocks(usub_driver *driver) {
-  const int32_t key = usub_interface_key(driver->face);
-  int32_t block = USUB_LONGEST_BLOCK;
-  if (driver->kind == USUB_KIND_OF_EXPLICIT)
-    block = key == USUB_INTERFACE_VFRIC ? driver->size.N : key == USUB_INTERFACE_VFRICTION ? 64 : 256;
-  if (driver->kind == USUB_KIND_OF_STANDARD) block = 256; /* points a guard, called one by one */
-  if (driver->set.block) block = driver->set.block;
-  if (driver->kind == USUB_KIND_OF_COEFFICIENT && driver->face->standard &&
-      (!driver->routine.block_safe || driver->size.S))
-    block = 1;
-  driver->block = block < driver->size.N ? block : driver->size.N;
-  driver->threads = driver->routine.thread_safe ? driver->set.threads : 1;
-}
-
-static void set_name(char *to, const char *from) {
-  memset(to, ' ', USUB_NAME_LENGTH);
-  for (size_t i = 0; from[i] && i < USUB_NAME_LENGTH; ++i)
-    to[i] = (char)toupper((unsigned char)from[i]);
-}
-
-static int32_t copy_props(usub_driver *driver, const usub_scene *scene) {
-  driver->prop_count = scene->prop_count;
-  driver->props = calloc((size_t)max_int(scene->prop_count, 1), sizeof(double));
-  if (!driver->props) return USUB_NO_MEMORY;
-  for (int32_t i = 0; i < scene->prop_count; ++i) {
-    if (driver->single)
-      ((float *)driver->props)[i] = (float)scene->props[i];
-    else
-      ((double *)driver->props)[i] = scene->props[i];
-  }
-  return USUB_OK;
-}
-
-static int32_t make_constants(usub_driver *driver) {
-  const usub_sizes *size = &driver->size;
-  const size_t ones = (size_t)max_int(max_int(size->N, size->X), 4);
-  const size_t numbers = (size_t)max_int(max_int(size->X, size->Y), 1);
-  driver->ones = malloc(ones * size->real);
-  driver->node_numbers = malloc(numbers * sizeof *driver->node_numbers);
-  if (!driver->ones || !driver->node_numbers) return USUB_NO_MEMORY;
-  for (size_t i = 0; i < ones; ++i) {
-    if (driver->single)
-      ((float *)driver->ones)[i] = 1;
-    else
-      ((double *)driver->ones)[i] = 1;
-  }
-  for (size_t i = 0; i < numbers; ++i) driver->node_numbers[i] = (int32_t)i + 1;
-  const usub_slot *state = usub_slot_find(driver, "state");
-  if (state && state->count && driver->kind != USUB_KIND_OF_STANDARD) {
-    driver->state_backup = malloc(state->count * state->element);
-    if (!driver->state_backup) return USUB_NO_MEMORY;
-  }
-  if (driver->threads > 1 && !(driver->pool = usub_pool_create(driver->threads)))
-    return USUB_NO_MEMORY;
-  return driver->kind == USUB_KIND_OF_STANDARD ? usub_standard_create(driver) : USUB_OK;
-}
-
-static int32_t fill_driver(usub_driver *driver, const usub_scene *scene, usub_error *error) {
-  driver->set = scene->settings;
-  driver->single = strcmp(scene->settings.precision, "single") == 0;
-  driver->analytical = strcmp(scene->settings.contact, "analytical-rigid") == 0;
-  driver->edges = strcmp(scene->settings.contact, "edge-to-edge") == 0;
-  for (size_t i = 0; driver->face->name[i] && i + 1 < sizeof driver->title; ++i)
-    driver->title[i] = (char)toupper((unsigned char)driver->face->name[i]);
-  if (driver->kind == USUB_KIND_OF_STANDARD || driver->kind == USUB_KIND_OF_COEFFICIENT)
-    driver->analytical = driver->edges = 0;
-  int32_t status = check_scene(driver, error);
-  if (status) return status;
-  if (copy_props(driver, scene)) return usub_error_set(error, USUB_NO_MEMORY, "no memory for props");
-  set_sizes(driver);
-  choose_blocks(driver);
-  driver->points = driver->size.N;
-  driver->failed_point = -1;
-  set_name(driver->names[0], scene->settings.interaction);
-  set_name(driver->names[1], scene->settings.secondary);
-  set_name(driver->names[2], scene->settings.main);
-  status = usub_slots_create(driver, error);
-  if (status) return status;
-  if (make_constants(driver)) return usub_error_set(error, USUB_NO_MEMORY, "no memory for a driver of %d points", driver->size.N);
-  return USUB_OK;
-}
-
-int32_t usub_driver_create(const char *kind, const usub_routine *routine, const usub_scene *scene,
-                           usub_driver **driver, usub_error *error) {
-  usub_kind_of_driver of = USUB_KIND_OF_STANDARD;
-  if (!driver || !routine || !scene)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: expected a pointer, got NULL",
-                          !driver ? "driver" : !routine ? "routine" : "scene");
-  *driver = NULL;
-  if (parse_kind(kind, &of))
-    return usub_error_set(error, USUB_BAD_ARGUMENT,
-                          "driver kind '%s'; expected 'standard', 'explicit' or 'coefficient'",
-                          kind ? kind : "(null)");
-  if (!fits(of, routine->face))
-    return usub_error_set(error, USUB_NOT_SUPPORTED, "a driver of kind '%s' cannot call %s", kind,
-                          routine->face->name);
-  usub_driver *made = calloc(1, sizeof *made);
-  if (!made) return usub_error_set(error, USUB_NO_MEMORY, "no memory for a driver");
-  made->kind = of;
-  made->routine = *routine;
-  made->face = routine->face;
-  int32_t status = fill_driver(made, scene, error);
-  if (status) {
-    usub_driver_free(made);
-    return status;
-  }
-  *driver = made;
-  return usub_error_set(error, USUB_OK, "%s", "");
-}
-
-void usub_driver_free(usub_driver *driver) {
-  if (!driver) return;
-  usub_pool_free(driver->pool);
-  usub_calls_free(driver);
-  usub_slots_free(driver);
-  usub_standard_free(driver);
-  if (driver->nothing) munmap(driver->nothing, driver->nothing_size);
-  free(driver->props);
-  free(driver->ones);
-  free(driver->node_numbers);
-  free(driver->state_backup);
-  free(driver->last_force);
-  free(driver);
-}
-
 int32_t usub_set_points(usub_driver *driver, int32_t points) {
-  if (!driver) return USUB_BAD_ARGUMENT;
+  if (!driver)
+    return USUB_BAD_ARGUMENT;
   if (points < 0 || points > driver->size.N)
     return usub_fail(driver, USUB_BAD_ARGUMENT, "%s: %d points; expected 0 to %d", driver->title,
                      points, driver->size.N);
-  if (driver->increment_open)
+  if (driver->last.open)
     return usub_fail(driver, USUB_WRONG_ORDER,
                      "%s: the number of points cannot change while an increment is open",
                      driver->title);
+  usub_start_call(driver);
   driver->points = points;
   return USUB_OK;
 }
 
+/* Whether a number keeps its meaning in the precision of the scene: neither infinite nor, unless it
+ * was, zero. */
+static int survives(const usub_driver *driver, double value) {
+  if (!isfinite(value))
+    return 0;
+  if (!driver->single || value == 0)
+    return 1;
+  return fabs(value) <= (double)FLT_MAX && (float)value != 0;
+}
+
 int32_t usub_set_time(usub_driver *driver, int32_t step, int32_t increment, double step_time,
                       double total_time, double time_increment) {
-  if (!driver) return USUB_BAD_ARGUMENT;
-  if (driver->increment_open)
+  if (!driver)
+    return USUB_BAD_ARGUMENT;
+  if (driver->last.open)
     return usub_fail(driver, USUB_WRONG_ORDER,
                      "%s: the time cannot change while an increment is open; commit or cut back",
                      driver->title);
-  if (!(time_increment >= 0) || !isfinite(time_increment) || !isfinite(step_time) ||
-      !isfinite(total_time))
+  if (!(time_increment >= 0) || !survives(driver, time_increment) || !survives(driver, step_time) ||
+      !survives(driver, total_time))
     return usub_fail(driver, USUB_BAD_ARGUMENT,
                      "%s: step time %g, total time %g, time increment %g; expected finite values "
-                     "and an increment of 0 or more",
-                     driver->title, step_time, total_time, time_increment);
+                     "of %s precision and an increment of 0 or more",
+                     driver->title, step_time, total_time, time_increment, driver->set.precision);
+  usub_start_call(driver);
   usub_clock *clock = &driver->clock;
   clock->flags[0] = step;
   clock->flags[1] = increment;
@@ -246,46 +59,54 @@ int32_t usub_set_time(usub_driver *driver, int32_t step, int32_t increment, doub
 }
 
 int32_t usub_get_time(const usub_driver *driver, int32_t *numbers, double *times) {
-  if (!driver || !numbers || !times) return USUB_BAD_ARGUMENT;
+  if (!driver || !numbers || !times)
+    return USUB_BAD_ARGUMENT;
   memcpy(numbers, driver->clock.flags, 2 * sizeof *numbers);
   memcpy(times, driver->clock.time, 3 * sizeof *times);
   return USUB_OK;
 }
 
 int32_t usub_set_friction_work(usub_driver *driver, double work) {
-  if (!driver) return USUB_BAD_ARGUMENT;
-  if (!isfinite(work))
-    return usub_fail(driver, USUB_BAD_ARGUMENT, "%s: friction work %g; expected a finite value",
-                     driver->title, work);
+  if (!driver)
+    return USUB_BAD_ARGUMENT;
+  if (!isfinite(work) || (driver->single && fabs(work) > (double)FLT_MAX))
+    return usub_fail(driver, USUB_BAD_ARGUMENT,
+                     "%s: friction work %g; expected a finite value of %s precision", driver->title,
+                     work, driver->set.precision);
+  usub_start_call(driver);
   driver->clock.time[3] = work;
   driver->clock.time_f[3] = (float)work;
   return USUB_OK;
 }
 
+/* Whether the block that failed can be run again: the host may have changed arrays or points. */
+static int can_replay(const usub_driver *driver) {
+  return driver->failed_block >= 0 && driver->prepared && driver->aimed &&
+         driver->failed_block <= (driver->points - 1) / driver->block;
+}
+
 int32_t usub_replay(usub_driver *driver, usub_entry entry) {
-  if (!driver || !entry) return USUB_BAD_ARGUMENT;
-  if (driver->failed_block < 0)
+  if (!driver || !entry)
+    return USUB_BAD_ARGUMENT;
+  if (!can_replay(driver))
     return usub_fail(driver, USUB_WRONG_ORDER, "%s: no block has failed", driver->title);
   /* One block with the twin in place of the routine; then everything is put back. */
   const usub_routine kept = driver->routine;
-  char message[sizeof driver->message];
-  memcpy(message, driver->message, sizeof message);
-  const usub_slot *state = usub_slot_find(driver, "state");
-  const int keeps = driver->state_backup && state;
+  usub_state_keep(driver);
   driver->routine.entry = entry;
   driver->routine.style = USUB_STYLE_BLOCK;
   driver->calls[0].status = USUB_OK;
   atomic_store(&driver->first_failed, INT32_MAX);
-  const usub_block_fn block = driver->kind == USUB_KIND_OF_STANDARD   ? usub_standard_block
-                              : driver->kind == USUB_KIND_OF_EXPLICIT ? usub_explicit_block
-                                                                      : usub_coefficient_block;
-  const int32_t status = block(driver, &driver->calls[0], driver->failed_block);
+  const int32_t status = usub_block_of(driver)(driver, &driver->calls[0], driver->failed_block);
   driver->routine = kept;
-  if (keeps) memcpy(state->data, driver->state_backup, state->count * state->element);
-  memcpy(driver->message, message, sizeof message);
+  usub_state_restore(driver);
   return status;
 }
 
-int32_t usub_empty(usub_driver *driver) { return driver ? USUB_OK : USUB_BAD_ARGUMENT; }
+int32_t usub_empty(usub_driver *driver) {
+  return driver ? USUB_OK : USUB_BAD_ARGUMENT;
+}
 
-const char *usub_release(void) { return USUB_RELEASE; }
+const char *usub_release(void) {
+  return USUB_RELEASE;
+}

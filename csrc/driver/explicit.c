@@ -12,6 +12,9 @@
 #include "explicit.h"
 #include "internal.h"
 
+/* For the squared length of normals: far above rounding in both precisions, far below a mistake. */
+#define UNIT_TOLERANCE 1e-3
+
 #define R double
 #define SUFFIX(name) name##_d
 #include "explicit_block.inc"
@@ -27,26 +30,41 @@ int32_t usub_explicit_block(usub_driver *driver, usub_call *call, int32_t index)
   return driver->single ? block_f(driver, call, index) : block_d(driver, call, index);
 }
 
-/* Refuses node numbers outside 1 ... limit: they become addresses. */
-static int32_t check_nodes(usub_driver *driver, const char *array, int32_t limit) {
-  const usub_slot *slot = usub_slot_find(driver, array);
-  if (!slot || !slot->data || limit == 0) return USUB_OK;
-  const size_t per_point = slot->per_point ? slot->per_point : slot->count;
-  const size_t count = slot->per_point ? per_point * (size_t)driver->points : slot->count;
-  const int32_t *nodes = slot->data;
-  for (size_t i = 0; i < count; ++i) {
-    if (nodes[i] >= 1 && nodes[i] <= limit) continue;
-    driver->failed_point = (int32_t)(i / (per_point ? per_point : 1));
-    return usub_fail(driver, USUB_BAD_INPUT, "%s: %s = %d at point %d; expected 1 to %d",
-                     driver->title, array, nodes[i], driver->failed_point, limit);
+/* Refuses node numbers outside 1 ... limit, since they become addresses. */
+static int32_t check_nodes(usub_driver *driver, const char *array, const int32_t *nodes,
+                           size_t count, size_t per_point, int32_t limit) {
+  for (size_t i = 0; nodes && i < count; ++i) {
+    if (nodes[i] >= 1 && nodes[i] <= limit)
+      continue;
+    const int32_t point = (int32_t)(i / per_point);
+    usub_fail(driver, USUB_BAD_INPUT, "%s: %s = %d at point %d; expected 1 to %d", driver->title,
+              array, nodes[i], point, limit);
+    driver->failed_point = point;
+    return USUB_BAD_INPUT;
   }
   return USUB_OK;
 }
 
+static int32_t check_all_nodes(usub_driver *driver) {
+  const usub_sizes *size = &driver->size;
+  const int is_vfric = usub_is_vfric(driver);
+  /* Without nodal arrays the numbers of general contact are the routine's affair. */
+  if (!is_vfric && size->Z == 0)
+    return USUB_OK;
+  const size_t n = (size_t)driver->points, secondary = is_vfric ? 1 : (size_t)size->B;
+  const size_t mains = driver->analytical && n > 1 ? 1 : n, main = (size_t)size->M;
+  const int32_t status = check_nodes(driver, "secondary_node", driver->memory.secondary_node,
+                                     n * secondary, secondary, is_vfric ? size->X : size->Z);
+  if (status)
+    return status;
+  return check_nodes(driver, "main_node", driver->memory.main_node, mains * main, main,
+                     is_vfric ? size->Y : size->Z);
+}
+
 int32_t usub_step(usub_driver *driver) {
-  if (!driver) return USUB_BAD_ARGUMENT;
-  driver->failed_point = -1;
-  driver->message[0] = 0;
+  if (!driver)
+    return USUB_BAD_ARGUMENT;
+  usub_start_call(driver);
   if (driver->kind != USUB_KIND_OF_EXPLICIT)
     return usub_fail(driver, USUB_WRONG_ORDER, "usub_step: %s is not in an explicit driver",
                      driver->title);
@@ -54,17 +72,16 @@ int32_t usub_step(usub_driver *driver) {
     return usub_fail(driver, USUB_WRONG_ORDER, "%s: usub_set_time has to come before usub_step",
                      driver->title);
   int32_t status = usub_prepare(driver);
-  if (status) return status;
-  const int is_vfric = usub_interface_key(driver->face) == USUB_INTERFACE_VFRIC;
-  status = check_nodes(driver, "secondary_node", is_vfric ? driver->size.X : driver->size.Z);
-  if (!status) status = check_nodes(driver, "main_node", is_vfric ? driver->size.Y : driver->size.Z);
-  if (status) return status;
-  const usub_slot *state = usub_slot_find(driver, "state");
-  const size_t state_bytes = state ? state->count * state->element : 0;
-  if (state_bytes) memcpy(driver->state_backup, state->data, state_bytes);
-  status = usub_run_blocks(driver, usub_explicit_block);
+  if (!status)
+    status = check_all_nodes(driver);
+  if (!status)
+    status = usub_check_whole_inputs(driver);
+  if (status)
+    return status;
+  usub_state_keep(driver);
+  status = usub_run_blocks(driver);
   if (status < 0) {
-    if (state_bytes) memcpy(state->data, driver->state_backup, state_bytes);
+    usub_state_restore(driver);
     return status;
   }
   if (driver->single)
@@ -75,4 +92,6 @@ int32_t usub_step(usub_driver *driver) {
   return USUB_OK;
 }
 
-double usub_dissipation(const usub_driver *driver) { return driver ? driver->dissipation : 0.0; }
+double usub_dissipation(const usub_driver *driver) {
+  return driver ? driver->dissipation : 0.0;
+}

@@ -6,19 +6,31 @@
 #include "internal.h"
 
 typedef struct usub_explicit_map {
-  int32_t force, slip, previous, direction; /* fTangential, dSlipFric, fTangPrev, dirCosSl */
+  int32_t force, slip, previous, direction, state;
 } usub_explicit_map;
 
 static inline usub_explicit_map usub_explicit_positions(const usub_driver *driver) {
   if (usub_interface_key(driver->face) == USUB_INTERFACE_VFRIC)
     return (usub_explicit_map){USUB_VFRIC_FTANGENTIAL, USUB_VFRIC_DSLIPFRIC, USUB_VFRIC_FTANGPREV,
-                               USUB_VFRIC_DIRCOSSL};
+                               USUB_VFRIC_DIRCOSSL, USUB_VFRIC_STATEV};
   return (usub_explicit_map){USUB_VFRICTION_FTANGENTIAL, USUB_VFRICTION_DSLIPFRIC,
-                             USUB_VFRICTION_FTANGPREV, USUB_VFRICTION_DIRCOSSL};
+                             USUB_VFRICTION_FTANGPREV, USUB_VFRICTION_DIRCOSSL,
+                             USUB_VFRICTION_STATE};
+}
+
+static inline int usub_is_vfric(const usub_driver *driver) {
+  return usub_interface_key(driver->face) == USUB_INTERFACE_VFRIC;
 }
 
 static inline int usub_is_coefficient(const usub_driver *driver) {
   return usub_interface_key(driver->face) == USUB_INTERFACE_VFRIC_COEF;
+}
+
+/** Column of the driver's own previous forces that belongs to a point: VFRIC's points come and go,
+ * so that theirs stay with the secondary node. */
+static inline size_t usub_force_column(const usub_driver *driver, int32_t point) {
+  const int32_t *node = usub_is_vfric(driver) ? driver->memory.secondary_node : NULL;
+  return node ? (size_t)node[point] - 1 : (size_t)point;
 }
 
 #endif

@@ -2,8 +2,10 @@
 /* Plans of VFRIC, VFRICTION and VFRIC_COEF. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "explicit.h"
+#include "fric_coef.h"
 #include "internal.h"
 
 static const void *time_of(const usub_driver *driver, int32_t index) {
@@ -30,33 +32,15 @@ static void put_fields(usub_driver *driver, int32_t position, const char *array,
     usub_put_absent(driver, position, bytes, bytes ? "nothing is bound: zeros" : absent);
 }
 
-/* Mean of "<quantity>_secondary" and "<quantity>_main". */
-static void put_average(usub_driver *driver, int32_t position, const char *quantity, size_t bytes) {
-  char secondary[40], main[40];
-  snprintf(secondary, sizeof secondary, "%s_secondary", quantity);
-  snprintf(main, sizeof main, "%s_main", quantity);
-  usub_need_array(driver, position, secondary);
-  usub_need_array(driver, position, main);
-  if (usub_data(driver, secondary) && usub_data(driver, main))
-    usub_put_scratch(driver, position, bytes, 0, "computed", "mean of the two surfaces");
-  else
-    usub_put_absent(driver, position, bytes, "nothing is bound: zeros");
-}
-
 static const char no_temperatures[] = "the scene has no temperatures";
 static const char no_fields[] = "the scene has no fields";
 static const char no_state[] = "the scene has no state variables";
+static const char no_facets[] = "an analytical rigid surface has no facets";
+static const char mean[] = "mean of the two surfaces";
 
-static void plan_vfric(usub_driver *driver) {
-  const usub_sizes *size = &driver->size;
+/* Numbers, counts and names of VFRIC. */
+static void plan_vfric_numbers(usub_driver *driver) {
   const usub_counts *count = &driver->counts;
-  const size_t real = size->real, vector = (size_t)size->D * real;
-  const size_t fields = (size_t)size->P * real;
-  usub_put_scratch(driver, USUB_VFRIC_FTANGENTIAL, (size_t)size->F * real, 0, "output", "rotated back");
-  if (size->S)
-    usub_put_array(driver, USUB_VFRIC_STATEV, "state", NULL);
-  else
-    usub_put_absent(driver, USUB_VFRIC_STATEV, 0, no_state);
   usub_put_fixed(driver, USUB_VFRIC_KSTEP, &driver->clock.flags[0]);
   usub_put_fixed(driver, USUB_VFRIC_KINC, &driver->clock.flags[1]);
   usub_put_points(driver, USUB_VFRIC_NCONTACT);
@@ -73,34 +57,47 @@ static void plan_vfric(usub_driver *driver) {
     usub_put_fixed(driver, USUB_VFRIC_NUMDEFTFV, &count->one);
   else
     usub_put_points(driver, USUB_VFRIC_NUMDEFTFV);
-  usub_put_array(driver, USUB_VFRIC_JSECUID, "secondary_number", driver->node_numbers);
-  usub_put_array(driver, USUB_VFRIC_JMAINUID, "main_number", driver->node_numbers);
-  usub_put_array(driver, USUB_VFRIC_JCONSECID, "secondary_node", NULL);
-  if (size->M)
-    usub_put_array(driver, USUB_VFRIC_JCONMAINID, "main_node", NULL);
-  else
-    usub_put_absent(driver, USUB_VFRIC_JCONMAINID, 0, "an analytical rigid surface has no facets");
   usub_put_fixed(driver, USUB_VFRIC_TIMSTEP, time_of(driver, 0));
   usub_put_fixed(driver, USUB_VFRIC_TIMGLB, time_of(driver, 1));
   usub_put_fixed(driver, USUB_VFRIC_DTIMCUR, time_of(driver, 2));
   usub_put_fixed(driver, USUB_VFRIC_SURFINT, driver->names[0]);
   usub_put_fixed(driver, USUB_VFRIC_SURFSEC, driver->names[1]);
   usub_put_fixed(driver, USUB_VFRIC_SURFMAIN, driver->names[2]);
-  usub_put_fixed(driver, USUB_VFRIC_LCONTTYPE, &count->zero);
+  usub_put_fixed(driver, USUB_VFRIC_LCONTTYPE, &driver->clock.flags[2]);
+  usub_put_fixed(driver, USUB_VFRIC_FRICTIONWORK, time_of(driver, 3));
+  usub_put_fixed(driver, USUB_VFRIC_PROPS, driver->props);
+}
+
+static void plan_vfric(usub_driver *driver) {
+  const usub_sizes *size = &driver->size;
+  const size_t real = size->real, vector = (size_t)size->D * real;
+  const size_t fields = (size_t)size->P * real;
+  plan_vfric_numbers(driver);
+  usub_put_scratch(driver, USUB_VFRIC_FTANGENTIAL, (size_t)size->F * real, 0, "output",
+                   "rotated back");
+  if (size->S)
+    usub_put_array(driver, USUB_VFRIC_STATEV, "state", NULL);
+  else
+    usub_put_absent(driver, USUB_VFRIC_STATEV, 0, no_state);
+  usub_put_array(driver, USUB_VFRIC_JSECUID, "secondary_number", driver->node_numbers);
+  usub_put_array(driver, USUB_VFRIC_JMAINUID, "main_number", driver->node_numbers);
+  usub_put_array(driver, USUB_VFRIC_JCONSECID, "secondary_node", NULL);
+  if (size->M) {
+    usub_put_array(driver, USUB_VFRIC_JCONMAINID, "main_node", NULL);
+    usub_put_array(driver, USUB_VFRIC_SHAPE, "shape_main", NULL);
+  } else {
+    usub_put_absent(driver, USUB_VFRIC_JCONMAINID, 0, no_facets);
+    usub_put_absent(driver, USUB_VFRIC_SHAPE, 0, no_facets);
+  }
   usub_put_scratch(driver, USUB_VFRIC_DSLIPFRIC, vector, 0, "computed", "length of the slip");
   usub_put_array(driver, USUB_VFRIC_FSTICKFORCE, "stick_force", NULL);
-  usub_put_scratch(driver, USUB_VFRIC_FTANGPREV, vector, 0, "computed", "rotated to the local axes");
+  usub_put_scratch(driver, USUB_VFRIC_FTANGPREV, vector, 0, "computed",
+                   "rotated to the local axes");
   usub_put_array(driver, USUB_VFRIC_FNORMAL, "normal_force", NULL);
-  usub_put_fixed(driver, USUB_VFRIC_FRICTIONWORK, time_of(driver, 3));
-  if (size->M)
-    usub_put_array(driver, USUB_VFRIC_SHAPE, "shape_main", NULL);
-  else
-    usub_put_absent(driver, USUB_VFRIC_SHAPE, 0, "an analytical rigid surface has no facets");
   usub_put_array(driver, USUB_VFRIC_COORDSEC, "coord_secondary", NULL);
   usub_put_array(driver, USUB_VFRIC_COORDMAIN, "coord_main", NULL);
   usub_put_scratch(driver, USUB_VFRIC_DIRCOSSL, vector, 0, "computed", "direction of the slip");
   usub_put_array(driver, USUB_VFRIC_DIRCOSN, "normal", NULL);
-  usub_put_fixed(driver, USUB_VFRIC_PROPS, driver->props);
   usub_put_array(driver, USUB_VFRIC_AREASEC, "area", driver->ones);
   const int32_t warm = driver->set.temperatures;
   put_optional(driver, USUB_VFRIC_TEMPSEC, "temperature_secondary", warm, no_temperatures);
@@ -124,16 +121,9 @@ static void put_nodal(usub_driver *driver, int32_t position, const char *array, 
     usub_put_absent(driver, position, bytes, "nothing is bound: zeros");
 }
 
-static void plan_vfriction(usub_driver *driver) {
-  const usub_sizes *size = &driver->size;
+/* Numbers, counts and names of VFRICTION. */
+static void plan_vfriction_numbers(usub_driver *driver) {
   const usub_counts *count = &driver->counts;
-  const size_t vector = (size_t)size->D * size->real;
-  usub_put_scratch(driver, USUB_VFRICTION_FTANGENTIAL, (size_t)size->F * size->real, 0, "output",
-                   "rotated back");
-  if (size->S)
-    usub_put_array(driver, USUB_VFRICTION_STATE, "state", NULL);
-  else
-    usub_put_absent(driver, USUB_VFRICTION_STATE, 0, no_state);
   usub_put_points(driver, USUB_VFRICTION_NBLOCK);
   if (driver->analytical)
     usub_put_fixed(driver, USUB_VFRICTION_NBLOCKANAL, &count->one);
@@ -157,9 +147,21 @@ static void plan_vfriction(usub_driver *driver) {
   usub_put_fixed(driver, USUB_VFRICTION_SURFINT, driver->names[0]);
   usub_put_fixed(driver, USUB_VFRICTION_SURFSEC, driver->names[1]);
   usub_put_fixed(driver, USUB_VFRICTION_SURFMAIN, driver->names[2]);
+  usub_put_fixed(driver, USUB_VFRICTION_PROPS, driver->props);
+}
+
+static void plan_vfriction(usub_driver *driver) {
+  const usub_sizes *size = &driver->size;
+  const size_t vector = (size_t)size->D * size->real;
+  plan_vfriction_numbers(driver);
+  usub_put_scratch(driver, USUB_VFRICTION_FTANGENTIAL, (size_t)size->F * size->real, 0, "output",
+                   "rotated back");
+  if (size->S)
+    usub_put_array(driver, USUB_VFRICTION_STATE, "state", NULL);
+  else
+    usub_put_absent(driver, USUB_VFRICTION_STATE, 0, no_state);
   usub_put_array(driver, USUB_VFRICTION_JCONSECUID, "secondary_node", NULL);
   usub_put_array(driver, USUB_VFRICTION_JCONMAINUID, "main_node", NULL);
-  usub_put_fixed(driver, USUB_VFRICTION_PROPS, driver->props);
   usub_put_scratch(driver, USUB_VFRICTION_DSLIPFRIC, vector, 0, "computed", "length of the slip");
   usub_put_array(driver, USUB_VFRICTION_FSTICKFORCE, "stick_force", NULL);
   usub_put_scratch(driver, USUB_VFRICTION_FTANGPREV, vector, 0, "computed",
@@ -197,48 +199,72 @@ static void plan_vfric_coef(usub_driver *driver) {
   else
     usub_put_array(driver, USUB_VFRIC_COEF_PRESSURE, "normal_force", NULL);
   if (driver->set.temperatures)
-    put_average(driver, USUB_VFRIC_COEF_TEMPAVG, "temperature", real);
+    usub_put_pair(driver, USUB_VFRIC_COEF_TEMPAVG, "temperature", real, 0, "computed", mean);
   else
     usub_put_absent(driver, USUB_VFRIC_COEF_TEMPAVG, real, no_temperatures);
   if (driver->size.P)
-    put_average(driver, USUB_VFRIC_COEF_FIELDAVG, "field", real * (size_t)driver->size.P);
+    usub_put_pair(driver, USUB_VFRIC_COEF_FIELDAVG, "field", real * (size_t)driver->size.P, 0,
+                  "computed", mean);
   else
     usub_put_absent(driver, USUB_VFRIC_COEF_FIELDAVG, real, no_fields);
 }
 
 /* Arrays that the driver itself needs, whatever the routine reads. */
-static void check_own_needs(usub_driver *driver, int is_vfric) {
+static void check_own_needs(usub_driver *driver) {
+  const int is_vfric = usub_is_vfric(driver);
   const char *lacking = NULL;
   const int secondary = usub_data(driver, is_vfric ? "secondary_force" : "nodal_force") != NULL;
   const int main = usub_data(driver, is_vfric ? "main_force" : "nodal_force") != NULL;
+  const int rigid = is_vfric && driver->analytical; /* its only node needs no number */
   driver->scatters = secondary || main;
-  if (usub_is_coefficient(driver) && !usub_data(driver, "stick_force")) lacking = "stick_force";
-  if (secondary && !usub_data(driver, "secondary_node")) lacking = "secondary_node";
-  if (secondary && driver->edges && !usub_data(driver, "shape_secondary")) lacking = "shape_secondary";
-  if (main && !driver->analytical && !usub_data(driver, "main_node")) lacking = "main_node";
-  if (main && !driver->analytical && !usub_data(driver, "shape_main")) lacking = "shape_main";
-  if (main && (is_vfric ? driver->size.Y : driver->size.Z) < 1) lacking = "main_force";
+  if (secondary && !usub_data(driver, "secondary_node"))
+    lacking = "secondary_node";
+  if (secondary && driver->edges && !usub_data(driver, "shape_secondary"))
+    lacking = "shape_secondary";
+  if (main && !rigid && !usub_data(driver, "main_node"))
+    lacking = "main_node";
+  if (main && !driver->analytical && !usub_data(driver, "shape_main"))
+    lacking = "shape_main";
+  const char *why = "add forces to the nodes";
+  if (usub_is_coefficient(driver) && !usub_data(driver, "stick_force")) {
+    lacking = "stick_force";
+    why = "bound the friction force";
+  }
+  /* Node number 0 would lead the routine to memory in front of the state variables. */
+  if (is_vfric && driver->size.S && usub_used(driver, USUB_VFRIC_STATEV) != 0 &&
+      !usub_data(driver, "secondary_node")) {
+    lacking = "secondary_node";
+    why = "keep state variables by node";
+  }
   if (lacking && !driver->missing[0])
     snprintf(driver->missing, sizeof driver->missing,
-             "%s: array '%s' is not bound; the driver needs it to %s", driver->title, lacking,
-             driver->scatters ? "add forces to the nodes" : "bound the friction force");
+             "%s: array '%s' is not bound; the driver needs it to %s", driver->title, lacking, why);
 }
 
 void usub_explicit_plan(usub_driver *driver) {
-  const int32_t key = usub_interface_key(driver->face);
-  if (key == USUB_INTERFACE_VFRIC)
-    plan_vfric(driver);
-  else if (key == USUB_INTERFACE_VFRICTION)
-    plan_vfriction(driver);
-  else
+  if (usub_is_coefficient(driver))
     plan_vfric_coef(driver);
-  check_own_needs(driver, key == USUB_INTERFACE_VFRIC);
-  const int reads_previous =
-      !usub_is_coefficient(driver) && usub_is_live(driver, usub_explicit_positions(driver).previous);
-  if (reads_previous && !driver->last_force && !usub_data(driver, "previous_force")) {
-    driver->last_force = calloc((size_t)driver->size.N * (size_t)driver->size.D, driver->size.real);
-    if (!driver->last_force)
-      snprintf(driver->missing, sizeof driver->missing, "%s: no memory for the previous force",
-               driver->title);
-  }
+  else if (usub_is_vfric(driver))
+    plan_vfric(driver);
+  else
+    plan_vfriction(driver);
+  check_own_needs(driver);
+  driver->keeps_force = !usub_is_coefficient(driver) &&
+                        usub_is_live(driver, usub_explicit_positions(driver).previous) &&
+                        !usub_data(driver, "previous_force");
+}
+
+size_t usub_force_bytes(const usub_driver *driver) {
+  const usub_sizes *size = &driver->size;
+  const int32_t columns = usub_is_vfric(driver) && size->X > size->N ? size->X : size->N;
+  return (size_t)columns * (size_t)size->D * size->real;
+}
+
+int32_t usub_explicit_memory(usub_driver *driver) {
+  if (!driver->keeps_force || driver->last_force)
+    return USUB_OK;
+  driver->last_force = calloc(1, usub_force_bytes(driver));
+  return driver->last_force ? USUB_OK
+                            : usub_fail(driver, USUB_NO_MEMORY,
+                                        "%s: no memory for the previous force", driver->title);
 }

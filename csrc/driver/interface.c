@@ -5,11 +5,11 @@
 
 #include "internal.h"
 
-#define INTERFACE_BEGIN(key, name, generation, solver, bit, count) \
+#define INTERFACE_BEGIN(key, name, generation, solver, bit, count)                                 \
   static const usub_arg args_##key[] = {
 #define ARG(name, modern, kind, shape, intent) {name, modern, kind, shape, intent},
-#define INTERFACE_END(key) \
-  }                        \
+#define INTERFACE_END(key)                                                                         \
+  }                                                                                                \
   ;
 #include "interfaces.inc"
 #undef INTERFACE_BEGIN
@@ -18,7 +18,7 @@
 
 /* A second pass makes the rows; their index is USUB_INTERFACE_... */
 static const usub_interface interfaces[] = {
-#define INTERFACE_BEGIN(key, name, generation, solver, bit, count) \
+#define INTERFACE_BEGIN(key, name, generation, solver, bit, count)                                 \
   {name, generation, solver[0] == 's', bit, args_##key, count},
 #define ARG(name, modern, kind, shape, intent)
 #define INTERFACE_END(key)
@@ -29,13 +29,21 @@ const usub_interface *usub_interface_find(const char *name, const char *generati
   const usub_interface *found = NULL;
   for (int32_t i = 0; i < USUB_INTERFACE_COUNT; ++i) {
     const usub_interface *face = &interfaces[i];
-    if (strcasecmp(face->name, name) != 0) continue;
-    if (!generation || !generation[0] || strcmp(face->generation, generation) == 0) found = face;
+    if (strcasecmp(face->name, name) != 0)
+      continue;
+    if (!generation || !generation[0] || strcmp(face->generation, generation) == 0)
+      found = face;
   }
   return found;
 }
 
-int32_t usub_interface_key(const usub_interface *face) { return (int32_t)(face - interfaces); }
+int32_t usub_interface_key(const usub_interface *face) {
+  return (int32_t)(face - interfaces);
+}
 
-int32_t usub_abi_version(void) { return USUB_ABI_VERSION; }
-const char *usub_abi_hash(void) { return USUB_ABI_HASH; }
+int32_t usub_abi_version(void) {
+  return USUB_ABI_VERSION;
+}
+const char *usub_abi_hash(void) {
+  return USUB_ABI_HASH;
+}

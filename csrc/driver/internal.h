@@ -2,10 +2,10 @@
 /** @file internal.h
  * What the parts of the driver share. Nothing here is seen by a host.
  *
- * Path of a call: a host binds arrays to *slots* (one for each port of the driver); `plan.c` decides
- * once, for every argument of the routine, where its memory comes from (`usub_source`); a call cuts
- * the points into blocks, sets the argument pointers of a block (`usub_call`), calls the routine
- * under a guard, checks what came back, and only at the end changes what is kept.
+ * Path of a call: a host binds arrays to *slots* (one for each port of the driver); `plan.c`
+ * decides once, for every argument of the routine, where its memory comes from (`usub_source`); a
+ * call cuts the points into blocks, sets the argument pointers of a block (`usub_call`), calls the
+ * routine under a guard, checks what came back, and only at the end changes what is kept.
  */
 #ifndef USERSUB_INTERNAL_H
 #define USERSUB_INTERNAL_H
@@ -23,7 +23,11 @@
 #define USUB_MAX_SLOTS 40
 #define USUB_TEXT_LENGTH 81
 
-typedef enum { USUB_KIND_OF_STANDARD, USUB_KIND_OF_EXPLICIT, USUB_KIND_OF_COEFFICIENT } usub_kind_of_driver;
+typedef enum {
+  USUB_KIND_OF_STANDARD,
+  USUB_KIND_OF_EXPLICIT,
+  USUB_KIND_OF_COEFFICIENT
+} usub_kind_of_driver;
 
 /** One argument, as in the table. */
 typedef struct usub_arg {
@@ -93,10 +97,11 @@ typedef struct usub_slot {
   size_t element;   /* bytes of one element */
   void *data;       /* bound by the host, else `own` */
   void *own;
+  void **place; /* field of usub_memory, which always holds `data` */
   int32_t bound;
 } usub_slot;
 
-/** Memory of every array by name, NULL where there is none: hot code does not search. */
+/** Memory of every array by name, NULL where there is none, so that a call need not search. */
 typedef struct usub_memory {
 #define PORT_NAME(name) void *name;
 #include "port_names.inc"
@@ -116,7 +121,7 @@ typedef struct usub_source {
   usub_from from;
   const char *what, *why; /* for people */
   const void *data;       /* FIXED: memory of the driver, */
-  const usub_slot *slot;  /* or FIXED, SLICE: an array (the host may bind another any time) */
+  const usub_slot *slot;  /* or FIXED, SLICE: an array (the host may bind another at any time) */
   size_t per_point;       /* SLICE, SCRATCH: bytes a contact point */
   size_t extra;           /* SCRATCH: bytes besides */
   int32_t used;           /* 1, 0, -1 unknown */
@@ -126,7 +131,7 @@ typedef struct usub_source {
 /** Arguments and scratch of one worker. */
 typedef struct usub_call {
   void *argv[USUB_MAX_ARGS];
-  int32_t n;    /* contact points of the block */
+  int32_t n;     /* contact points of the block */
   char *scratch; /* one allocation; the sources' shares, then `axes` */
   void *axes;    /* local direction 1 of the points of a block */
   double pnewdt; /* smallest of this worker */
@@ -137,7 +142,7 @@ typedef struct usub_call {
 
 /** Times and numbers that arguments point at, in both precisions. */
 typedef struct usub_clock {
-  int32_t flags[3]; /* step, increment, type of contact */
+  int32_t flags[3]; /* step, increment, type of contact (its values are not published: 0) */
   double time[4];   /* step time, total time, increment, friction work */
   float time_f[4];
   int32_t iteration;
@@ -145,8 +150,22 @@ typedef struct usub_clock {
 
 /** Integers that arguments point at. */
 typedef struct usub_counts {
-  int32_t zero, one, N, D, F, S, P, T, B, M, X, Y, facet_nodes, props, temperatures;
+  int32_t zero, one, D, F, S, P, T, B, M, X, Y, props, temperatures;
 } usub_counts;
+
+/** What a standard driver keeps between calls besides its committed arrays. `trial` memory is
+ * written while an iteration runs; the rest is copied when it has succeeded, so that a failed
+ * iteration never was, and so that a commit does not depend on what the host does to its arrays. */
+typedef struct usub_iteration {
+  int32_t open;     /* an increment is open */
+  int32_t done;     /* an iteration of it has succeeded: lm, closed, dslip are its answers */
+  int32_t complete; /* and no later one has failed: it can be committed */
+  int32_t *lm;
+  unsigned char *closed, *trial_closed;
+  double *dslip, *tau, *sed, *pressure;
+  double *trial_state, *trial_elastic, *trial_equivalent;
+  double pnewdt; /* smallest of the iteration */
+} usub_iteration;
 
 struct usub_driver {
   usub_kind_of_driver kind;
@@ -156,18 +175,20 @@ struct usub_driver {
   usub_settings set;
   usub_sizes size;
   int32_t single, analytical, edges;
-  int32_t points;   /* present now */
-  int32_t block;    /* points a call */
+  int32_t points; /* present now */
+  int32_t block;  /* points a call */
   int32_t threads;
   int32_t prepared; /* the plan fits the set of bound arrays */
-  int32_t timed;    /* usub_set_time was called */
   int32_t aimed;    /* the fixed argument pointers are set */
+  int32_t timed;    /* usub_set_time was called */
   usub_slot slots[USUB_MAX_SLOTS];
   int32_t slot_count;
-  usub_memory memory; /* of the slots; valid once prepared */
+  usub_memory memory; /* of the slots */
   usub_source sources[USUB_MAX_ARGS];
-  int32_t moving[USUB_MAX_ARGS], moving_count; /* arguments that are slices */
-  int32_t looked_at[USUB_MAX_ARGS], looked_at_count; /* inputs that are checked for NaN */
+  int32_t moving[USUB_MAX_ARGS], moving_count;       /* arguments that are slices */
+  int32_t looked_at[USUB_MAX_ARGS], looked_at_count; /* inputs checked in every block */
+  const usub_slot *whole[USUB_MAX_ARGS];             /* arrays checked once a call */
+  int32_t whole_count;
   usub_call *calls; /* one a worker */
   usub_pool *pool;
   usub_clock clock, accepted; /* now; of the last increment that counts, which is what is saved */
@@ -175,25 +196,19 @@ struct usub_driver {
   char names[3][USUB_NAME_LENGTH];
   void *props;
   int32_t prop_count;
-  void *ones;    /* reals: areas, shape functions of nodes */
+  void *ones;            /* reals: areas, shape functions of nodes */
   int32_t *node_numbers; /* 1, 2, ...: global numbers where the host gives none */
-  void *nothing; /* read-only zeros for left-out arguments */
+  void *nothing;         /* read-only zeros for left-out arguments */
   size_t nothing_size;
-  char missing[256]; /* what the plan lacks */
-  /* standard */
-  int32_t increment_open;
-  int32_t iterated; /* an iteration of this increment has succeeded: last_* are valid */
-  int32_t complete; /* and no later one has failed: the outputs belong together */
-  int32_t *last_lm;
-  unsigned char *last_closed, *closed_now;
-  double *last_dslip;
-  double *trial_state, *trial_elastic, *trial_equivalent;
-  double pnewdt;
+  char missing[256];   /* what the plan lacks */
+  usub_iteration last; /* standard */
   /* explicit */
-  void *last_force; /* kept where the routine reads the previous force */
-  void *state_backup;
+  void *last_force; /* kept where the routine reads the previous force; by column (explicit.h) */
+  int32_t keeps_force, scatters;
   double dissipation;
-  int32_t scatters, needs_nodes;
+  /* Explicit and coefficient: routines write to the state itself. */
+  void *state_backup;
+  size_t state_bytes;
   /* failures */
   atomic_int first_failed; /* lowest block that failed, INT32_MAX if none */
   int32_t failed_point, failed_block;
@@ -205,6 +220,8 @@ struct usub_driver {
 int32_t usub_fail(usub_driver *driver, int32_t status, const char *format, ...) USUB_PRINTF(3, 4);
 int32_t usub_error_set(usub_error *error, int32_t status, const char *format, ...)
     USUB_PRINTF(3, 4);
+/** Forgets the last failure, as every call does first. */
+void usub_start_call(usub_driver *driver);
 /** Records a failure of a block; the driver reports the one of the lowest block. */
 int32_t usub_block_fail(usub_driver *driver, usub_call *call, int32_t block, int32_t point,
                         int32_t status, const char *format, ...) USUB_PRINTF(6, 7);
@@ -218,10 +235,21 @@ int32_t usub_interface_key(const usub_interface *face);
 int32_t usub_slots_create(usub_driver *driver, usub_error *error);
 void usub_slots_free(usub_driver *driver);
 usub_slot *usub_slot_find(usub_driver *driver, const char *name);
+/** The scene setting that counts the nodes of an array, NULL if it is not an array of nodes. */
+const char *usub_empty_setting(const usub_slot *slot);
 /** Memory of a slot, NULL if nothing is bound or owned. For plans; calls use `memory`. */
 void *usub_data(const usub_driver *driver, const char *name);
+
+/* finite.c */
 /** Index of the first NaN or infinity in `n` reals, -1 if there is none. */
 ptrdiff_t usub_first_bad(const void *data, size_t n, int32_t single);
+/** The same for a few doubles: a loop of its own costs less than a call. */
+static inline int32_t usub_first_bad_of_few(const double *data, int32_t n) {
+  for (int32_t i = 0; i < n; ++i)
+    if (!(data[i] - data[i] == 0))
+      return i;
+  return -1;
+}
 
 /* plan.c */
 /** Whether the routine uses the argument: 1, 0, or -1 if nobody knows. */
@@ -240,6 +268,9 @@ void usub_put_memory(usub_driver *driver, int32_t position, const void *data, si
 /** Memory of the worker that the driver fills ("gathered", "computed") or empties ("output"). */
 void usub_put_scratch(usub_driver *driver, int32_t position, size_t per_point, size_t extra,
                       const char *what, const char *why);
+/** What is made of "<quantity>_secondary" and "<quantity>_main": scratch if both are bound. */
+void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, size_t per_point,
+                   size_t extra, const char *what, const char *why);
 /** Notes that the scene has no such thing: zeros are passed. */
 void usub_put_absent(usub_driver *driver, int32_t position, size_t per_point, const char *why);
 /** Whether the driver has to fill or empty the scratch of an argument. */
@@ -251,10 +282,12 @@ void usub_calls_free(usub_driver *driver);
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n);
 
 /* inputs.c */
-/** Lists the inputs of the routine that are made of host data with a point index. */
+/** Lists the arrays that are looked at: inputs of the routine and what forces are spread with. */
 void usub_list_inputs(usub_driver *driver);
-/** Refuses NaN and infinity in them, in the block that `call` aims at. */
+/** Refuses NaN and infinity in the inputs of the block that `call` aims at. */
 int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first);
+/** Refuses them in the arrays without a point index, and in shape functions that spread forces. */
+int32_t usub_check_whole_inputs(usub_driver *driver);
 
 /* run.c */
 /** Calls the routine with the arguments of `call`; the caller holds the guard. */
@@ -264,18 +297,32 @@ int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reaso
 /** One block of points: fills, calls, checks, empties. */
 typedef int32_t (*usub_block_fn)(usub_driver *driver, usub_call *call, int32_t index);
 /** Runs all blocks over the workers and reports the failure of the lowest block. */
-int32_t usub_run_blocks(usub_driver *driver, usub_block_fn block);
-/** Memory that only standard drivers have. */
+int32_t usub_run_blocks(usub_driver *driver);
+/** The block function of the driver's kind. */
+usub_block_fn usub_block_of(const usub_driver *driver);
+
+/* state.c */
+/** Copies the state that the routine writes to, and puts the copy back. */
+void usub_state_keep(usub_driver *driver);
+void usub_state_restore(usub_driver *driver);
+
+/** Allowable elastic slip of penalty enforcement. */
+static inline double usub_critical_elastic_slip(const usub_settings *set) {
+  return set->elastic_slip > 0 ? set->elastic_slip
+                               : set->slip_tolerance * set->characteristic_length;
+}
+
+/* What each kind of driver adds: memory, plan, one block. */
 int32_t usub_standard_create(usub_driver *driver);
 void usub_standard_free(usub_driver *driver);
-/** Plan and block of the driver's kind. */
 void usub_standard_plan(usub_driver *driver);
 int32_t usub_standard_block(usub_driver *driver, usub_call *call, int32_t index);
 void usub_explicit_plan(usub_driver *driver);
+/** Memory of the previous force, if the plan wants it. */
+int32_t usub_explicit_memory(usub_driver *driver);
+size_t usub_force_bytes(const usub_driver *driver);
 int32_t usub_explicit_block(usub_driver *driver, usub_call *call, int32_t index);
 void usub_coefficient_plan(usub_driver *driver);
 int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t index);
-/** The arguments that FRIC_COEF and VFRIC_COEF share: counts, names, properties, flags, times. */
-void usub_put_coefficient_common(usub_driver *driver);
 
 #endif

@@ -11,7 +11,13 @@ int32_t usub_fail(usub_driver *driver, int32_t status, const char *format, ...) 
   va_start(list, format);
   vsnprintf(driver->message, sizeof driver->message, format, list);
   va_end(list);
+  driver->failed_point = -1; /* a caller who knows the point says so afterwards */
   return status;
+}
+
+void usub_start_call(usub_driver *driver) {
+  driver->message[0] = 0;
+  driver->failed_point = driver->failed_block = -1;
 }
 
 int32_t usub_error_set(usub_error *error, int32_t status, const char *format, ...) {
@@ -30,7 +36,8 @@ int32_t usub_block_fail(usub_driver *driver, usub_call *call, int32_t block, int
   int lowest = atomic_load(&driver->first_failed);
   while (block < lowest && !atomic_compare_exchange_weak(&driver->first_failed, &lowest, block)) {
   }
-  if (call->status && call->failed_block <= block) return status;
+  if (call->status && call->failed_block <= block)
+    return status;
   va_list list;
   va_start(list, format);
   vsnprintf(call->message, sizeof call->message, format, list);
@@ -43,28 +50,32 @@ int32_t usub_block_fail(usub_driver *driver, usub_call *call, int32_t block, int
 
 const char *usub_status_name(int32_t status) {
   switch (status) {
-#define X(name, value, text) \
-  case value:                \
+#define X(name, value, text)                                                                       \
+  case value:                                                                                      \
     return #name;
     USUB_STATUSES(X)
 #undef X
-    default:
-      return "UNKNOWN";
+  default:
+    return "UNKNOWN";
   }
 }
 
 const char *usub_status_text(int32_t status) {
   switch (status) {
-#define X(name, value, text) \
-  case value:                \
+#define X(name, value, text)                                                                       \
+  case value:                                                                                      \
     return text;
     USUB_STATUSES(X)
 #undef X
-    default:
-      return "not a status of usersub";
+  default:
+    return "not a status of usersub";
   }
 }
 
-const char *usub_message(const usub_driver *driver) { return driver ? driver->message : ""; }
+const char *usub_message(const usub_driver *driver) {
+  return driver ? driver->message : "";
+}
 
-int32_t usub_failed_point(const usub_driver *driver) { return driver ? driver->failed_point : -1; }
+int32_t usub_failed_point(const usub_driver *driver) {
+  return driver ? driver->failed_point : -1;
+}

@@ -11,12 +11,13 @@
 
 #include "internal.h"
 
-/* Room for what a wrongly declared routine might read; untouched pages cost nothing. */
+/* Room for what a wrongly declared routine might read, at least; untouched pages cost nothing. */
 #define NOTHING_BYTES ((size_t)1 << 24)
 #define ALIGNMENT 64
 
 int32_t usub_used(const usub_driver *driver, int32_t position) {
-  if (!driver->routine.uses_known) return -1;
+  if (!driver->routine.uses_known)
+    return -1;
   return driver->routine.uses[position] != 0;
 }
 
@@ -58,11 +59,20 @@ void usub_put_points(usub_driver *driver, int32_t position) {
 
 void usub_need_array(usub_driver *driver, int32_t position, const char *array) {
   const usub_slot *slot = usub_slot_find(driver, array);
-  if (driver->missing[0] || slot->data || slot->port->unbound[0] || slot->count == 0) return;
-  if (usub_used(driver, position) != 1) return;
-  snprintf(driver->missing, sizeof driver->missing,
-           "%s: array '%s' is not bound, but the routine reads %s", driver->title, array,
-           driver->face->args[position].modern);
+  const char *empty = slot->count ? NULL : usub_empty_setting(slot);
+  if (driver->missing[0] || slot->data || slot->port->unbound[0])
+    return;
+  if (usub_used(driver, position) != 1 || (slot->count == 0 && !empty))
+    return;
+  const char *argument = driver->face->args[position].modern;
+  if (empty)
+    snprintf(driver->missing, sizeof driver->missing,
+             "%s: scene setting '%s' = 0, but the routine reads %s", driver->title, empty,
+             argument);
+  else
+    snprintf(driver->missing, sizeof driver->missing,
+             "%s: array '%s' is not bound, but the routine reads %s", driver->title, array,
+             argument);
 }
 
 void usub_put_array(usub_driver *driver, int32_t position, const char *array,
@@ -70,7 +80,8 @@ void usub_put_array(usub_driver *driver, int32_t position, const char *array,
   const usub_slot *slot = usub_slot_find(driver, array);
   const size_t bytes = slot->per_point * slot->element;
   usub_source *source = put(driver, position, bytes ? USUB_SLICE : USUB_FIXED, bytes);
-  if (source->from == USUB_LEFT_OUT) return;
+  if (source->from == USUB_LEFT_OUT)
+    return;
   source->slot = slot;
   source->per_point = bytes;
   if (slot->data) {
@@ -78,19 +89,20 @@ void usub_put_array(usub_driver *driver, int32_t position, const char *array,
     source->why = slot->bound ? "memory of the host" : "memory of the driver";
     return;
   }
-  usub_need_array(driver, position, array);
+  if (!fallback)
+    usub_need_array(driver, position, array);
   source->from = USUB_FIXED;
   source->slot = NULL;
-  source->data = fallback;
+  source->data = fallback ? fallback : driver->nothing;
   source->bytes = 0;
   source->what = "constant";
   source->why = slot->port->unbound[0] ? slot->port->unbound : "nothing is bound: zeros";
-  if (!fallback) source->data = driver->nothing;
 }
 
 void usub_put_memory(usub_driver *driver, int32_t position, const void *data, size_t bytes) {
   usub_source *source = put(driver, position, USUB_SLICE, bytes);
-  if (source->from == USUB_LEFT_OUT) return;
+  if (source->from == USUB_LEFT_OUT)
+    return;
   source->data = data;
   source->per_point = bytes;
   source->what = "zero-copy";
@@ -100,7 +112,8 @@ void usub_put_memory(usub_driver *driver, int32_t position, const void *data, si
 void usub_put_scratch(usub_driver *driver, int32_t position, size_t per_point, size_t extra,
                       const char *what, const char *why) {
   usub_source *source = put(driver, position, USUB_SCRATCH, per_point ? per_point : extra);
-  if (source->from == USUB_LEFT_OUT) return;
+  if (source->from == USUB_LEFT_OUT)
+    return;
   source->per_point = per_point;
   source->extra = extra;
   source->what = what;
@@ -109,22 +122,39 @@ void usub_put_scratch(usub_driver *driver, int32_t position, size_t per_point, s
 
 void usub_put_absent(usub_driver *driver, int32_t position, size_t per_point, const char *why) {
   usub_source *source = put(driver, position, USUB_FIXED, per_point);
-  if (source->from == USUB_LEFT_OUT) return;
+  if (source->from == USUB_LEFT_OUT)
+    return;
   source->data = driver->nothing;
   source->bytes = 0;
   source->what = "left out";
   source->why = why;
 }
 
+void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, size_t per_point,
+                   size_t extra, const char *what, const char *why) {
+  char secondary[40], main[40];
+  snprintf(secondary, sizeof secondary, "%s_secondary", quantity);
+  snprintf(main, sizeof main, "%s_main", quantity);
+  usub_need_array(driver, position, secondary);
+  usub_need_array(driver, position, main);
+  if (usub_data(driver, secondary) && usub_data(driver, main))
+    usub_put_scratch(driver, position, per_point, extra, what, why);
+  else
+    usub_put_absent(driver, position, per_point + extra, "nothing is bound: zeros");
+}
+
 int usub_is_live(const usub_driver *driver, int32_t position) {
   return driver->sources[position].from == USUB_SCRATCH;
 }
 
-static size_t rounded(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
+static size_t rounded(size_t bytes) {
+  return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
 
 void usub_calls_free(usub_driver *driver) {
   if (driver->calls)
-    for (int32_t w = 0; w < driver->threads; ++w) free(driver->calls[w].scratch);
+    for (int32_t w = 0; w < driver->threads; ++w)
+      free(driver->calls[w].scratch);
   free(driver->calls);
   driver->calls = NULL;
 }
@@ -136,10 +166,12 @@ static int32_t make_calls(usub_driver *driver) {
   size_t total = ALIGNMENT + rounded(block * 3 * driver->size.real);
   for (int32_t i = 0; i < driver->face->count; ++i) {
     const usub_source *source = &driver->sources[i];
-    if (source->from == USUB_SCRATCH) total += rounded(block * source->per_point + source->extra);
+    if (source->from == USUB_SCRATCH)
+      total += rounded(block * source->per_point + source->extra);
   }
   driver->calls = calloc((size_t)driver->threads, sizeof *driver->calls);
-  if (!driver->calls) return usub_fail(driver, USUB_NO_MEMORY, "no memory for the workers");
+  if (!driver->calls)
+    return usub_fail(driver, USUB_NO_MEMORY, "no memory for the workers");
   for (int32_t w = 0; w < driver->threads; ++w) {
     usub_call *call = &driver->calls[w];
     call->scratch = aligned_alloc(ALIGNMENT, rounded(total));
@@ -150,7 +182,8 @@ static int32_t make_calls(usub_driver *driver) {
     char *at = call->scratch + rounded(block * 3 * driver->size.real);
     for (int32_t i = 0; i < driver->face->count; ++i) {
       const usub_source *source = &driver->sources[i];
-      if (source->from != USUB_SCRATCH) continue;
+      if (source->from != USUB_SCRATCH)
+        continue;
       call->argv[i] = at;
       at += rounded(block * source->per_point + source->extra);
     }
@@ -160,17 +193,17 @@ static int32_t make_calls(usub_driver *driver) {
 
 /* Sets the pointers that do not move from block to block. */
 static void aim_fixed(usub_driver *driver) {
-#define PORT_NAME(name) driver->memory.name = usub_data(driver, #name);
-#include "port_names.inc"
-#undef PORT_NAME
   driver->moving_count = 0;
   for (int32_t i = 0; i < driver->face->count; ++i) {
     const usub_source *source = &driver->sources[i];
-    if (source->from == USUB_SLICE) driver->moving[driver->moving_count++] = i;
+    if (source->from == USUB_SLICE)
+      driver->moving[driver->moving_count++] = i;
     for (int32_t w = 0; w < driver->threads; ++w) {
       usub_call *call = &driver->calls[w];
-      if (source->from == USUB_LEFT_OUT) call->argv[i] = driver->nothing;
-      if (source->from == USUB_POINTS) call->argv[i] = &call->n;
+      if (source->from == USUB_LEFT_OUT)
+        call->argv[i] = driver->nothing;
+      if (source->from == USUB_POINTS)
+        call->argv[i] = &call->n;
       if (source->from == USUB_FIXED)
         call->argv[i] = source->slot ? source->slot->data : (void *)(uintptr_t)source->data;
     }
@@ -184,8 +217,7 @@ void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t
   for (int32_t m = 0; m < driver->moving_count; ++m) {
     const usub_source *source = &driver->sources[driver->moving[m]];
     const void *base = source->slot ? source->slot->data : source->data;
-    call->argv[driver->moving[m]] =
-        (char *)(uintptr_t)base + (size_t)first * source->per_point;
+    call->argv[driver->moving[m]] = (char *)(uintptr_t)base + (size_t)first * source->per_point;
   }
 }
 
@@ -193,7 +225,8 @@ void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t
 static int32_t check_bound(usub_driver *driver) {
   for (int32_t i = 0; i < driver->slot_count; ++i) {
     const usub_slot *slot = &driver->slots[i];
-    if (slot->data || slot->port->role != USUB_ROLE_IN || slot->count == 0) continue;
+    if (slot->data || slot->port->role != USUB_ROLE_IN || slot->count == 0)
+      continue;
     if (strcmp(slot->port->unbound, "required") == 0)
       return usub_fail(driver, USUB_MISSING_ARRAY, "%s: array '%s' is not bound; it is required",
                        driver->title, slot->port->name);
@@ -201,12 +234,22 @@ static int32_t check_bound(usub_driver *driver) {
   return USUB_OK;
 }
 
-static void make_plan(usub_driver *driver) {
-  if (!driver->nothing) {
-    void *pages = mmap(NULL, NOTHING_BYTES, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    driver->nothing = pages == MAP_FAILED ? NULL : pages;
-    driver->nothing_size = NOTHING_BYTES;
+/* Zeros for every argument that is left out or absent: as long as the longest array. */
+static void make_nothing(usub_driver *driver) {
+  size_t size = NOTHING_BYTES;
+  for (int32_t i = 0; i < driver->slot_count; ++i) {
+    const size_t bytes = driver->slots[i].count * driver->slots[i].element;
+    if (bytes > size)
+      size = bytes;
   }
+  void *pages = mmap(NULL, size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  driver->nothing = pages == MAP_FAILED ? NULL : pages;
+  driver->nothing_size = size;
+}
+
+static void make_plan(usub_driver *driver) {
+  if (!driver->nothing)
+    make_nothing(driver);
   driver->missing[0] = 0;
   if (driver->kind == USUB_KIND_OF_STANDARD)
     usub_standard_plan(driver);
@@ -219,28 +262,47 @@ static void make_plan(usub_driver *driver) {
 int32_t usub_prepare(usub_driver *driver) {
   if (!driver->prepared) {
     int32_t status = check_bound(driver);
-    if (status) return status;
+    if (status)
+      return status;
     make_plan(driver);
-    if (!driver->nothing) return usub_fail(driver, USUB_NO_MEMORY, "no memory for left-out arguments");
-    if (driver->missing[0]) return usub_fail(driver, USUB_MISSING_ARRAY, "%s", driver->missing);
+    if (!driver->nothing)
+      return usub_fail(driver, USUB_NO_MEMORY, "no memory for left-out arguments");
+    if (driver->missing[0])
+      return usub_fail(driver, USUB_MISSING_ARRAY, "%s", driver->missing);
     status = make_calls(driver);
-    if (status) return status;
+    if (!status && driver->kind == USUB_KIND_OF_EXPLICIT)
+      status = usub_explicit_memory(driver);
+    if (status)
+      return status;
     driver->prepared = 1;
     driver->aimed = 0;
   }
-  if (!driver->aimed) aim_fixed(driver);
+  if (!driver->aimed)
+    aim_fixed(driver);
   return USUB_OK;
 }
 
-int32_t usub_plan_count(const usub_driver *driver) { return driver ? driver->face->count : 0; }
-int32_t usub_plan_block(const usub_driver *driver) { return driver ? driver->block : 0; }
-int32_t usub_plan_threads(const usub_driver *driver) { return driver ? driver->threads : 0; }
+int32_t usub_plan_count(const usub_driver *driver) {
+  return driver ? driver->face->count : 0;
+}
+int32_t usub_plan_block(const usub_driver *driver) {
+  return driver ? driver->block : 0;
+}
+int32_t usub_plan_threads(const usub_driver *driver) {
+  return driver ? driver->threads : 0;
+}
 
 int32_t usub_plan_get(const usub_driver *driver, int32_t index, usub_plan_row *row) {
-  if (!driver || !row || index < 0 || index >= driver->face->count) return USUB_BAD_ARGUMENT;
-  if (!driver->prepared) make_plan((usub_driver *)(uintptr_t)driver);
+  if (!driver || !row || index < 0 || index >= driver->face->count)
+    return USUB_BAD_ARGUMENT;
+  if (!driver->prepared)
+    make_plan((usub_driver *)(uintptr_t)driver);
   const usub_source *source = &driver->sources[index];
-  *row = (usub_plan_row){driver->face->args[index].modern, source->what, source->why, source->used,
-                         source->bytes, source->bytes_full};
+  *row = (usub_plan_row){driver->face->args[index].modern,
+                         source->what,
+                         source->why,
+                         source->used,
+                         source->bytes,
+                         source->bytes_full};
   return USUB_OK;
 }

@@ -11,7 +11,8 @@
 /* Checks names and makes an empty routine; NULL with a reason in `error`. */
 static usub_routine *routine_new(const char *interface, const char *generation,
                                  const char *precision, usub_error *error) {
-  if (error) error->message[0] = 0;
+  if (error)
+    error->message[0] = 0;
   const usub_interface *face = interface ? usub_interface_find(interface, generation) : NULL;
   if (!face) {
     const int known = interface && usub_interface_find(interface, NULL);
@@ -31,7 +32,8 @@ static usub_routine *routine_new(const char *interface, const char *generation,
   }
   if (single && face->standard) {
     usub_error_set(error, USUB_NOT_SUPPORTED,
-                   "%s exists in double precision only; precision 'single' was asked for", interface);
+                   "%s exists in double precision only; precision 'single' was asked for",
+                   interface);
     return NULL;
   }
   usub_routine *routine = calloc(1, sizeof *routine);
@@ -48,10 +50,12 @@ static usub_routine *routine_new(const char *interface, const char *generation,
 int32_t usub_routine_open(const char *library, const char *interface, const char *generation,
                           const char *precision, usub_routine **routine, usub_error *error) {
   if (!routine)
-    return usub_error_set(error, USUB_BAD_ARGUMENT, "routine: expected a place for the handle, got NULL");
+    return usub_error_set(error, USUB_BAD_ARGUMENT,
+                          "routine: expected a place for the handle, got NULL");
   *routine = NULL;
   usub_routine *made = routine_new(interface, generation, precision, error);
-  if (!made) return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  if (!made)
+    return error && error->status ? error->status : USUB_BAD_ARGUMENT;
   usub_publish_utilities();
   /* Lazily: other routines of the file may call what only the commercial solver has. */
   void *handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
@@ -73,7 +77,8 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
                           "library '%s' has no symbol '%s', so no routine behind %s",
                           library ? library : "(this program)", symbol, interface);
   }
-  if (library) usub_redirect_stops(handle);
+  if (library)
+    usub_redirect_stops(handle);
   made->library = handle;
   made->style = USUB_STYLE_FULL;
   memcpy(&made->entry, &address, sizeof address); /* ISO C has no cast from object to function */
@@ -92,7 +97,8 @@ int32_t usub_routine_create(const char *interface, const char *generation, const
     return usub_error_set(error, USUB_BAD_ARGUMENT,
                           "style %d; expected USUB_STYLE_FULL (0) or USUB_STYLE_BLOCK (1)", style);
   usub_routine *made = routine_new(interface, generation, precision, error);
-  if (!made) return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  if (!made)
+    return error && error->status ? error->status : USUB_BAD_ARGUMENT;
   made->style = style;
   made->entry = entry;
   *routine = made;
@@ -100,16 +106,19 @@ int32_t usub_routine_create(const char *interface, const char *generation, const
 }
 
 int32_t usub_routine_set_uses(usub_routine *routine, const unsigned char *uses, int32_t count) {
-  if (!routine || !uses || count != routine->face->count) return USUB_BAD_ARGUMENT;
+  if (!routine || !uses || count != routine->face->count)
+    return USUB_BAD_ARGUMENT;
   for (int32_t i = 0; i < count; ++i)
-    if (uses[i] > 3) return USUB_BAD_ARGUMENT;
+    if (uses[i] > 3)
+      return USUB_BAD_ARGUMENT;
   memcpy(routine->uses, uses, (size_t)count);
   routine->uses_known = 1;
   return USUB_OK;
 }
 
 int32_t usub_routine_set_flag(usub_routine *routine, const char *flag, int32_t value) {
-  if (!routine || !flag || (value != 0 && value != 1)) return USUB_BAD_ARGUMENT;
+  if (!routine || !flag || (value != 0 && value != 1))
+    return USUB_BAD_ARGUMENT;
   if (strcmp(flag, "block_safe") == 0)
     routine->block_safe = value;
   else if (strcmp(flag, "thread_safe") == 0)
@@ -120,7 +129,9 @@ int32_t usub_routine_set_flag(usub_routine *routine, const char *flag, int32_t v
 }
 
 void usub_routine_free(usub_routine *routine) {
-  if (!routine) return;
-  if (routine->library) dlclose(routine->library);
+  if (!routine)
+    return;
+  if (routine->library)
+    dlclose(routine->library);
   free(routine);
 }

@@ -15,32 +15,32 @@ int32_t usub_call_routine(const usub_driver *driver, const usub_call *call) {
   if (driver->routine.style == USUB_STYLE_BLOCK)
     return ((block_style)entry)((void **)(uintptr_t)argv);
   switch (usub_interface_key(driver->face) * 2 + driver->single) {
-    case USUB_INTERFACE_FRIC * 2:
-      usub_call_fric_d(entry, argv);
-      break;
-    case USUB_INTERFACE_FRIC_COEF * 2:
-      usub_call_fric_coef_d(entry, argv);
-      break;
-    case USUB_INTERFACE_FRIC_COEF_2022 * 2:
-      usub_call_fric_coef_2022_d(entry, argv);
-      break;
-    case USUB_INTERFACE_VFRIC * 2:
-      usub_call_vfric_d(entry, argv);
-      break;
-    case USUB_INTERFACE_VFRIC * 2 + 1:
-      usub_call_vfric_f(entry, argv);
-      break;
-    case USUB_INTERFACE_VFRICTION * 2:
-      usub_call_vfriction_d(entry, argv);
-      break;
-    case USUB_INTERFACE_VFRICTION * 2 + 1:
-      usub_call_vfriction_f(entry, argv);
-      break;
-    case USUB_INTERFACE_VFRIC_COEF * 2:
-      usub_call_vfric_coef_d(entry, argv);
-      break;
-    default:
-      usub_call_vfric_coef_f(entry, argv);
+  case USUB_INTERFACE_FRIC * 2:
+    usub_call_fric_d(entry, argv);
+    break;
+  case USUB_INTERFACE_FRIC_COEF * 2:
+    usub_call_fric_coef_d(entry, argv);
+    break;
+  case USUB_INTERFACE_FRIC_COEF_2022 * 2:
+    usub_call_fric_coef_2022_d(entry, argv);
+    break;
+  case USUB_INTERFACE_VFRIC * 2:
+    usub_call_vfric_d(entry, argv);
+    break;
+  case USUB_INTERFACE_VFRIC * 2 + 1:
+    usub_call_vfric_f(entry, argv);
+    break;
+  case USUB_INTERFACE_VFRICTION * 2:
+    usub_call_vfriction_d(entry, argv);
+    break;
+  case USUB_INTERFACE_VFRICTION * 2 + 1:
+    usub_call_vfriction_f(entry, argv);
+    break;
+  case USUB_INTERFACE_VFRIC_COEF * 2:
+    usub_call_vfric_coef_d(entry, argv);
+    break;
+  default:
+    usub_call_vfric_coef_f(entry, argv);
   }
   return USUB_OK;
 }
@@ -52,7 +52,8 @@ int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reaso
   guard.single = driver->single;
   if (sigsetjmp(guard.env, 0) == 0) {
     status = usub_call_routine(driver, call);
-    if (status < 0) strcpy(reason, status == USUB_ROUTINE_RAISED ? "an exception" : "its status");
+    if (status < 0)
+      strcpy(reason, status == USUB_ROUTINE_RAISED ? "an exception" : "its status");
   } else {
     status = guard.status;
     memcpy(reason, guard.reason, sizeof guard.reason);
@@ -61,37 +62,40 @@ int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reaso
   return status;
 }
 
-typedef struct job {
-  usub_driver *driver;
-  usub_block_fn block;
-} job;
-
-static void task(void *context, int32_t worker, int32_t index) {
-  const job *all = context;
-  usub_driver *driver = all->driver;
-  /* Blocks behind a failed one are of no use; those before it may hold the first failure. */
-  if (index > atomic_load_explicit(&driver->first_failed, memory_order_relaxed)) return;
-  all->block(driver, &driver->calls[worker], index);
+usub_block_fn usub_block_of(const usub_driver *driver) {
+  static const usub_block_fn blocks[] = {usub_standard_block, usub_explicit_block,
+                                         usub_coefficient_block};
+  return blocks[driver->kind];
 }
 
-int32_t usub_run_blocks(usub_driver *driver, usub_block_fn block) {
-  const int32_t count = (driver->points + driver->block - 1) / driver->block;
+static void task(void *context, int32_t worker, int32_t index) {
+  usub_driver *driver = context;
+  /* Blocks behind a failed one are of no use; those before it may hold the first failure. */
+  if (index > atomic_load_explicit(&driver->first_failed, memory_order_relaxed))
+    return;
+  usub_block_of(driver)(driver, &driver->calls[worker], index);
+}
+
+int32_t usub_run_blocks(usub_driver *driver) {
+  const usub_block_fn block = usub_block_of(driver);
+  const int32_t count = driver->points / driver->block + (driver->points % driver->block != 0);
   atomic_store_explicit(&driver->first_failed, INT32_MAX, memory_order_relaxed);
-  driver->failed_block = driver->failed_point = -1;
-  driver->message[0] = 0;
-  for (int32_t w = 0; w < driver->threads; ++w) driver->calls[w].status = USUB_OK;
+  for (int32_t w = 0; w < driver->threads; ++w)
+    driver->calls[w].status = USUB_OK;
   if (driver->pool && count > 1) {
-    job all = {driver, block};
-    usub_pool_run(driver->pool, task, &all, count);
+    usub_pool_run(driver->pool, task, driver, count);
   } else {
     for (int32_t index = 0; index < count; ++index)
-      if (block(driver, &driver->calls[0], index) < 0) break;
+      if (block(driver, &driver->calls[0], index) < 0)
+        break;
   }
   const int32_t failed = atomic_load(&driver->first_failed);
-  if (failed == INT32_MAX) return USUB_OK;
+  if (failed == INT32_MAX)
+    return USUB_OK;
   for (int32_t w = 0; w < driver->threads; ++w) {
     const usub_call *call = &driver->calls[w];
-    if (!call->status || call->failed_block != failed) continue;
+    if (!call->status || call->failed_block != failed)
+      continue;
     driver->failed_block = failed;
     driver->failed_point = call->failed_point;
     snprintf(driver->message, sizeof driver->message, "%s", call->message);

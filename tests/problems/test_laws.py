@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from mpmath import mp, mpf, workdps
 
 import usersub
 from usersub import laws
 from usersub.errors import LoadError, RoutineError
-
-mp.dps = 90
 
 #: Every argument has its own value; the first temperature is that of the secondary surface.
 N = 5
@@ -65,6 +63,13 @@ def _line(x, points, values):
             share = (x - points[i]) / (mpf(points[i + 1]) - points[i])
             return values[i] + share * (mpf(values[i + 1]) - values[i])
     raise AssertionError("unreachable")
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    """Digits of the truth here, whatever other modules have set."""
+    with workdps(90):
+        yield
 
 
 TRUTH = {

@@ -133,3 +133,28 @@ def test_path_that_cannot_be_written_is_refused_at_once(tmp_path):
 def test_routine_without_output_has_nothing_to_do_after_a_call():
     field = Path(__file__).resolve().parents[1] / "field"
     assert usersub.load(field / "vfric_coef_table.c").only().after_call is None
+
+
+@pytest.mark.needs_fortran
+def test_stop_inside_of_a_write_leaves_the_unit_usable(tmp_path):
+    """The statement that is left half done is ended; nothing waits for its unit for ever."""
+    source = tmp_path / "inside.f90"
+    source.write_text(
+        "subroutine vfric_coef(fc,fd,nb,np,nt,nf,jf,rd,a,b,c,props,rate,p,t,f)\n"
+        " include 'vaba_param.inc'\n character*80 a, b, c\n dimension fc(nb), p(nb)\n"
+        " write (7, '(a,f5.1)') 'p', checked(p(1))\n fc(1) = p(1)\nend\n"
+        "function checked(p)\n include 'vaba_param.inc'\n character*8 text\n"
+        " write (text, '(i0)') nint(p)  ! a statement inside of the other one\n"
+        " if (p > 5) stop 7\n checked = p + 10 * len_trim(text)\nend\n"
+    )
+    said = []
+    usersub.messages_to(lambda level, text: said.append(text))
+    routine = usersub.load(source).only()
+    assert not routine.thread_safe
+    driver = usersub.CoefficientDriver(routine, usersub.Scene(points=1, props=[0.0], nodes=1))
+    _call(driver, 1.0)
+    for _ in range(3):
+        with pytest.raises(usersub.RoutineError, match="STOP 7"):
+            _call(driver, 9.0)
+    _call(driver, 2.0)
+    assert [text for text in said if text.strip() not in ("", "p")] == ["p 11.0", "p 12.0"]

@@ -12,10 +12,9 @@ from typing import Any
 from usersub import abi
 from usersub.errors import CompileError, LoadError
 from usersub.routine import cache, compilers, debuginfo, objects
-from usersub.routine.support import Support
 
 #: Version of what is stored of a build; part of every key.
-RECORD = "7"
+RECORD = "8"
 _UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
 
 
@@ -110,10 +109,10 @@ def link(
     compiler: compilers.Compiler,
     source: Path,
     parts: list[Path],
-    support: Support,
+    flags: tuple[str, ...],
     target: Path,
 ) -> tuple[str, ...]:
-    """Links `parts` (the object of the source first) into `target`.
+    """Links `parts` (the object of the source first) with `flags` into `target`.
 
     Functions that do not exist here are an error if one of the interfaces can come to call them;
     other entries of the file (a UEL, a VUMAT) get a function that says so and ends the call.
@@ -125,7 +124,7 @@ def link(
         LoadError: symbols that an interface needs are nowhere. CompileError: the linker's words.
     """
     made = parts[0].with_name("linked.so")
-    command = [*compiler.command, "-o", str(made), *map(str, parts), *support.link_flags]
+    command = [*compiler.command, "-o", str(made), *map(str, parts), *flags]
     outcome = compilers.run(command, parts[0].parent)
     absent: tuple[str, ...] = ()
     if outcome.code:

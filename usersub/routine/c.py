@@ -104,7 +104,7 @@ def _finish(
         unused=needs.unused_in_c(words, found),
         shared=contents.shared,
         writes_units=contents.writes_units,
-        absent=build.link(compiler, source, parts, base, target),
+        absent=build.link(compiler, source, parts, base.link_flags, target),
         guarded=guarded,
     )
 

@@ -3,7 +3,7 @@
 
 The copy differs from the file in what a user does not see: line ends, byte-order mark, comments
 (the preprocessor stumbles over quotes and `/*` in them), the names of include files (found in any
-case, ours or beside the source), and `#include <SMAAspUserSubroutines.hdr>`: wherever it stands,
+case, ours or beside the source), what `fortran_repairs` mends, and `#include <SMAAspUserSubroutines.hdr>`: wherever it stands,
 its declarations go where Fortran allows them, into every unit that calls such a function and does
 not declare it.
 """
@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from usersub.errors import CompileError, LoadError
-from usersub.routine import fortran_text
+from usersub.routine import fortran_repairs, fortran_text
+from usersub.routine.fortran_text import Unit
 
 _HEADER = re.compile(r"^smaaspuser\w*\.hdr$", re.I)
 _IMPLICIT = re.compile(r"^\s+implicit\b", re.I | re.M)
@@ -31,17 +32,19 @@ class Prepared:
     free: bool
 
 
-def prepare(source: Path, folders: tuple[Path, ...]) -> Prepared:
+def prepare(source: Path, folders: tuple[Path, ...], free: bool | None = None) -> Prepared:
     """Reads `source` and what it includes.
 
     Args:
         folders: our own include folders, searched before the folder of the source.
+        free: form of the source; None takes it from the suffix and the directives in it.
 
     Raises:
         LoadError: the file cannot be read. CompileError: include files include each other.
     """
     text = _read(source)
-    free = fortran_text.is_free(source.suffix, text)
+    if free is None:
+        free = fortran_text.is_free(source.suffix, text)
     copier = _Copier(folders, free)
     main = "usub_main.F90" if free else "usub_main.F"
     copier.files[main] = b""
@@ -56,7 +59,9 @@ def _read(path: Path) -> str:
     except OSError as error:
         raise LoadError(f"{path} cannot be read: {error.strerror}") from error
     data = data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x1a")
-    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").decode("latin-1")
+    data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    # A form feed before a line would count as a column.
+    return re.sub(rb"^\f+", b"", data, flags=re.M).decode("latin-1")
 
 
 def declarations(folders: tuple[Path, ...]) -> dict[str, list[str]]:
@@ -107,7 +112,7 @@ class _Copier:
             raise CompileError(f"{name}: include files are nested deeper than {_DEEPEST}")
         lines: list[str] = []
         typing: list[int] = []
-        for index, line in enumerate(text.splitlines()):
+        for index, line in enumerate(fortran_text.lines_of(text)):
             included = fortran_text.include_of(line)
             if included is not None:
                 line, types = self._include(line, included, folder, depth)
@@ -115,17 +120,21 @@ class _Copier:
                     typing.append(index)
             elif fortran_text.is_comment(line, self.free):
                 line = ""
-            elif line.rstrip().endswith("\\") and "!" in line:
-                line = line.rstrip().rstrip("\\")
+            else:
+                line = fortran_repairs.quiet_comment(line)
             lines.append(line)
         # Markers have to come back the same from the preprocessor, which escapes other characters.
         shown = re.sub(r"[^\w.,;+()' -]", "_", name, flags=re.ASCII)
-        made = [f'# 1 "{shown}"']
-        added = self._added("\n".join(lines), typing, name)
-        for index, line in enumerate(lines):
-            made.append(line)
-            if index in added:
-                made += [*added[index], f'# {index + 2} "{shown}"']
+        found = fortran_text.units("\n".join(lines), self.free, name)
+        added = self._added(found, typing)
+        fortran_repairs.without_double_typing(lines, found, typing)
+        order = fortran_repairs.modules_first(found, len(lines)) or range(len(lines))
+        made, expected = [], -1
+        for index in order:
+            if index != expected:
+                made.append(f'# {index + 1} "{shown}"')
+            made += [lines[index], *added.get(index, ())]
+            expected = index + 1 if index not in added else -1
         types = bool(typing or _IMPLICIT.search(text))
         return ("\n".join(made) + "\n").encode("latin-1"), types
 
@@ -159,9 +168,8 @@ class _Copier:
             return path
         return None
 
-    def _added(self, text: str, typing: list[int], name: str) -> dict[int, list[str]]:
+    def _added(self, found: list[Unit], typing: list[int]) -> dict[int, list[str]]:
         """Declarations to insert, by the index of the line before them."""
-        found = fortran_text.units(text, self.free, name)
         defined = {unit.name for unit in found}
         modules = [unit for unit in found if unit.kind == "module"]
         added: dict[int, list[str]] = {}

@@ -38,9 +38,15 @@ class Unit:
     statements: list[Statement] = field(default_factory=list)
 
 
+def lines_of(text: str) -> list[str]:
+    """The lines of a text. Only a line feed ends one: other encodings have letters where
+    `str.splitlines` sees line ends."""
+    return text.removesuffix("\n").split("\n")
+
+
 def is_free(suffix: str, text: str) -> bool:
     """Form of a source by its suffix, or by a `!DEC$ FREEFORM` that stands in it."""
-    for line in text.splitlines():
+    for line in lines_of(text):
         found = _DIRECTIVE.match(line)
         if found:
             return (found[2].lower() == "freeform") != bool(found[1])
@@ -69,7 +75,7 @@ def statements(text: str, free: bool, file: str) -> Iterator[Statement]:
     parts: list[str] = []
     begin, last = (file, 1), 0
     number, continued = 0, False
-    for index, line in enumerate(text.splitlines()):
+    for index, line in enumerate(lines_of(text)):
         number += 1
         marker = _MARKER.match(line)
         if marker:

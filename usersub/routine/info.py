@@ -174,5 +174,7 @@ def _notes(routine: Routine, build: Build | None, checked: bool):
         yield "which arguments are used is not known; all are taken as used"
     if build is not None and build.shared:
         yield f"not run in threads: it keeps {', '.join(build.shared)}"
+    if build is not None and build.writes_units:
+        yield "not run in threads: it uses Fortran units"
     if build is not None and routine.interface.name == "fric_coef" and not checked:
         yield "the generation is not known; one point a call fits both"

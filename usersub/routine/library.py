@@ -66,7 +66,7 @@ def _linked(path: Path, missing: tuple[str, ...]) -> tuple[Path, tuple[str, ...]
     with cache.build_folder() as folder:
         part = folder / "main.o"
         part.write_bytes(path.read_bytes())
-        return target, build.link(compiler, path, [part], base, target)
+        return target, build.link(compiler, path, [part], base.link_flags, target)
 
 
 def open_library(path: Path) -> ctypes.CDLL:

@@ -206,7 +206,8 @@ def _routine(code: Code, name: str, generation: str | None) -> Routine:
         make_entry=partial(code.entry, face),
         uses=needs.uses(face, build.unused.get(symbol)),
         block_safe=name != "fric_coef",
-        thread_safe=not build.shared,
+        # Units are shared, and lines have to come in the order of the points.
+        thread_safe=not build.shared and not build.writes_units,
         after_call=messages.after_call if build.writes_units else None,
     )
 

@@ -17,8 +17,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from usersub.errors import CompileError
-from usersub.routine import cache, compilers
+from usersub.routine import units
 
 #: Gets a level and a text: 1 information, -1 warning, -2 error, -3 fatal, 0 a line on a unit.
 Receiver = Callable[[int, str], None]
@@ -30,51 +29,6 @@ _UNITS = (6, 7)
 _OWN, _OTHER, _LITTER = 1, 2, 3
 #: A unit's file starts again at this size.
 _LARGEST = 1 << 22
-
-_HELPER = """\
-subroutine usub_unit_open(unit, path, length, state) bind(c)
-  use iso_c_binding
-  integer(c_int), value :: unit, length
-  character(kind=c_char), intent(in) :: path(*)
-  integer(c_int), intent(out) :: state
-  character(len=length) :: name
-  integer :: i
-  do i = 1, length
-    name(i:i) = path(i)
-  end do
-  open (unit=unit, file=name, form='formatted', status='old', action='readwrite', iostat=state)
-end subroutine
-integer(c_int) function usub_unit_flush(unit, path, length) bind(c)
-  use iso_c_binding
-  integer(c_int), value :: unit, length
-  character(kind=c_char), intent(in) :: path(*)
-  character(len=4096) :: name
-  logical :: connected
-  integer :: i
-  inquire (unit=unit, opened=connected)
-  usub_unit_flush = 0
-  if (.not. connected) return
-  flush (unit)
-  inquire (unit=unit, name=name)
-  usub_unit_flush = 1
-  if (len_trim(name) /= length) usub_unit_flush = 2
-  do i = 1, min(length, len(name))
-    if (name(i:i) /= path(i)) usub_unit_flush = 2
-  end do
-  if (index(name, 'fort.', back=.true.) == max(1, len_trim(name) - 5) .and. &
-      usub_unit_flush == 2) usub_unit_flush = 3
-end function
-subroutine usub_unit_again(unit) bind(c)
-  use iso_c_binding
-  integer(c_int), value :: unit
-  rewind (unit)
-end subroutine
-subroutine usub_unit_delete(unit) bind(c)
-  use iso_c_binding
-  integer(c_int), value :: unit
-  close (unit, status='delete')
-end subroutine
-"""
 
 
 def _to_stderr(level: int, text: str) -> None:
@@ -168,39 +122,32 @@ class _Unit:
 
 
 _units: list[_Unit] = []
+#: Functions that end statements which a routine left half done, by library.
+_recover: dict[str, Callable[[], object]] = {}
 
 
-def connect_units() -> None:
-    """Connects units 6 and 7 of gfortran's run-time library; once.
+def connect_units(loaded: ctypes.CDLL) -> None:
+    """Connects units 6 and 7 of gfortran's run-time library; once, before `loaded` writes to them.
 
     Raises:
         MissingTool, CompileError: the few lines of Fortran that do it cannot be compiled.
     """
     with _lock:
         if not _units:
-            helper = ctypes.CDLL(str(_helper_library()), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+            helper = ctypes.CDLL(str(units.connector()), mode=os.RTLD_LOCAL | os.RTLD_NOW)
             _units.extend(_Unit(helper, number) for number in _UNITS)
             atexit.register(after_call)
-
-
-def _helper_library() -> Path:
-    compiler = compilers.find("fortran")
-    target = cache.path("units", cache.key("units", compiler.version, _HELPER), ".so")
-    if not target.is_file():
-        with cache.build_folder() as folder:
-            (folder / "units.f90").write_text(_HELPER, encoding="ascii")
-            command = [*compiler.command, "-O1", "-fPIC", "-shared", "units.f90", "-o", "units.so"]
-            outcome = compilers.run(command, folder)
-            if outcome.code:
-                raise CompileError(f"units 6 and 7 cannot be connected: {outcome.text.strip()}")
-            cache.put(folder / "units.so", target)
-    return target
+        recover = getattr(loaded, units.RECOVER, None)
+        if recover is not None:
+            _recover[loaded._name] = recover
 
 
 def after_call() -> None:
     """Hands new lines on units 6 and 7 to the receiver; what a routine with output gives to
     `Routine.after_call`."""
     with _lock:
+        for recover in _recover.values():
+            recover()
         for unit in _units:
             for line in unit.lines():
                 _say(0, line)

@@ -46,12 +46,12 @@ class Code:
         """The library of the build, in the process."""
         if precision not in self._loaded:
             build = self.build(precision)
-            if build.writes_units:
-                messages.connect_units()
             if build.library == build.source:
                 loaded = library.open_prebuilt(build.library, build.missing)
             else:
                 loaded = library.open_library(build.library)
+            if build.writes_units:
+                messages.connect_units(loaded)
             self._loaded[precision] = loaded
         return self._loaded[precision]
 

@@ -175,7 +175,8 @@ int32_t usub_state_save(const usub_driver *driver, void *buffer, size_t size);
  * sizes and check sum fit. */
 int32_t usub_state_load(usub_driver *driver, const void *buffer, size_t size);
 
-/** Why the last call on this driver failed: interface, array or argument, point; "" if it did not. */
+/** Why the last call on this driver failed: interface, array or argument, point; "" if it did not.
+ */
 const char *usub_message(const usub_driver *driver);
 /** Contact point (from 0) of the last failure, -1 if none is known. */
 int32_t usub_failed_point(const usub_driver *driver);
@@ -192,8 +193,8 @@ int32_t usub_plan_threads(const usub_driver *driver);
 
 /* Helpers for hosts */
 
-/** Stick force of kinematic enforcement: the force that takes the predicted tangential velocity of a
- * node to zero within the increment, mass |v_t| / dt.
+/** Stick force of kinematic enforcement: the force that takes the predicted tangential velocity of
+ * a node to zero within the increment, mass |v_t| / dt.
  * @param velocity predicted relative velocity (dimension, points); normal likewise */
 int32_t usub_stick_force_kinematic(int32_t points, int32_t dimension, const double *velocity,
                                    const double *normal, const double *mass, double time_increment,

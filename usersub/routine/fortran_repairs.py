@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""What published Fortran gets away with elsewhere and gfortran refuses, mended in the build copy.
+
+Line numbers stay those of the file. Nothing here changes a file that gfortran takes as it is.
+"""
+
+from __future__ import annotations
+
+import re
+
+from usersub.routine.fortran_text import Unit, owner
+
+_USE = re.compile(r"^use(?:,(?:non_)?intrinsic)?(?:::)?([a-z]\w*)")
+_NO_TYPING = re.compile(r"implicit\s+none(?:\s*\([\w\s,]*\))?", re.I)
+_OWN_TYPING = re.compile(r"^implicit(?:real|doubleprecision)\S*\(a-h,o-z\)$")
+_LOGICALS = re.compile(
+    r"^(?P<file>[^\s:][^:]*):(?P<line>\d+):(?P<column>\d+): Error: Logicals at \(1\) must be "
+    r"compared with (?P<right>\.\w+\.) instead of (?P<wrong>\S+)$",
+    re.M,
+)
+_MARKER = re.compile(r'^# (\d+) "([^"]*)"$')
+
+
+def quiet_comment(line: str) -> str:
+    """The line without what the preprocessor would see in a comment behind code: `/*`, and a
+    backslash at the end."""
+    if "!" not in line or not ("/*" in line or line.rstrip().endswith("\\")):
+        return line
+    quote = ""
+    for at, c in enumerate(line):
+        if quote:
+            quote = "" if c == quote else quote
+        elif c in "'\"":
+            quote = c
+        # A mark in column 6 of fixed form continues a line.
+        elif c == "!" and (at != 5 or line[:5].strip()):
+            return line[:at] + line[at:].replace("/*", "/ ").rstrip().rstrip("\\")
+    return line
+
+
+def modules_first(found: list[Unit], count: int) -> list[int] | None:
+    """Order of the `count` lines with modules before the units that use them; None if they are in
+    order."""
+    modules = {unit.name: unit for unit in found if unit.kind == "module"}
+    begun: set[str] = set()
+    late = False
+    used: dict[str, list[str]] = {name: [] for name in modules}
+    inside = ""
+    for unit in found:
+        if unit.kind == "module":
+            inside = unit.name
+            begun.add(inside)
+        elif inside and unit.line > modules[inside].statements[-1].last:
+            inside = ""
+        for statement in unit.statements:
+            name = _USE.match(statement.code)
+            if name and name[1] in modules:
+                late = late or name[1] not in begun
+                if inside:
+                    used[inside].append(name[1])
+    if not late:
+        return None
+    front: list[str] = []
+
+    def place(name: str, above: tuple[str, ...] = ()) -> None:
+        for other in used[name]:
+            if other not in above:
+                place(other, (*above, name))
+        if name not in front:
+            front.append(name)
+
+    for name in modules:
+        place(name)
+    moved = [
+        index
+        for name in front
+        for index in range(modules[name].line - 1, modules[name].statements[-1].last + 1)
+    ]
+    return [*moved, *sorted(set(range(count)) - set(moved))]
+
+
+def without_double_typing(lines: list[str], found: list[Unit], includes: list[int]) -> None:
+    """Blanks IMPLICIT NONE, and a second rule for all reals, in units with an include file that
+    sets the typing rule; gfortran takes one rule only.
+
+    Args:
+        lines: changed in place.
+        includes: indices of the lines that include a typing rule.
+    """
+    typed = [unit for i in includes if (unit := owner(found, i)) is not None]
+    for unit in found:
+        if not any(unit is other for other in typed):
+            continue
+        for statement in unit.statements[1:]:
+            index = statement.line - 1
+            if statement.code.startswith("implicitnone"):
+                lines[index] = _NO_TYPING.sub("", lines[index])
+            elif _OWN_TYPING.match(statement.code) and index == statement.last:
+                lines[index] = ""
+
+
+def logical_comparisons(files: dict[str, bytes], words: str) -> dict[str, bytes] | None:
+    """The files with `.eq.` between logicals as `.eqv.`, where gfortran's words say so; None if
+    they do not."""
+    faults = [found.groupdict() for found in _LOGICALS.finditer(words)]
+    if not faults:
+        return None
+    mended = dict(files)
+    for name, data in files.items():
+        lines = data.decode("latin-1").split("\n")
+        places = _places(lines)
+        for fault in faults:
+            start = places.get((fault["file"], int(fault["line"])))
+            if start is not None:
+                _mend(lines, start, int(fault["column"]) - 1, fault["wrong"], fault["right"])
+        mended[name] = "\n".join(lines).encode("latin-1")
+    return mended
+
+
+def _places(lines: list[str]) -> dict[tuple[str, int], int]:
+    """Index of each line by the file and number that its markers give it."""
+    places: dict[tuple[str, int], int] = {}
+    file, number = "", 0
+    for index, line in enumerate(lines):
+        marker = _MARKER.match(line)
+        if marker:
+            file, number = marker[2], int(marker[1]) - 1
+        else:
+            number += 1
+            places[file, number] = index
+    return places
+
+
+def _mend(lines: list[str], start: int, column: int, wrong: str, right: str) -> None:
+    """Replaces the first operator at or behind a place, in its line or the next ones."""
+    operator = re.compile(re.escape(wrong).replace(r"\.", r"\s*\.\s*", 1), re.I)
+    for index in range(start, min(start + 20, len(lines))):
+        found = operator.search(lines[index], column if index == start else 0)
+        if found:
+            line = lines[index]
+            lines[index] = line[: found.start()] + right + line[found.end() :]
+            return
