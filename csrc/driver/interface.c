@@ -47,3 +47,12 @@ int32_t usub_abi_version(void) {
 const char *usub_abi_hash(void) {
   return USUB_ABI_HASH;
 }
+
+int32_t usub_check_abi(const char *hash, usub_error *error) {
+  if (hash && strcmp(hash, USUB_ABI_HASH) == 0)
+    return usub_error_set(error, USUB_OK, "%s", "");
+  return usub_error_set(error, USUB_ABI_MISMATCH,
+                        "built with argument tables of hash %s, but this library has %s; build it "
+                        "again",
+                        hash ? hash : "(null)", USUB_ABI_HASH);
+}

@@ -77,6 +77,12 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
                           "library '%s' has no symbol '%s', so no routine behind %s",
                           library ? library : "(this program)", symbol, interface);
   }
+  const char *hash = library ? dlsym(handle, "usub_routine_abi_hash") : NULL;
+  if (hash && usub_check_abi(hash, error)) { /* only code that was built with abi.h has one */
+    dlclose(handle);
+    free(made);
+    return USUB_ABI_MISMATCH;
+  }
   if (library)
     usub_redirect_stops(handle);
   made->library = handle;

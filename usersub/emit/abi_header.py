@@ -48,6 +48,15 @@ typedef double usub_real;
 #endif
 """
 
+_STAMP = """\
+/* What is built with this header says so, and is refused by a library of another table. */
+#if defined(__ELF__) && defined(__GNUC__)
+extern const char usub_routine_abi_hash[17] __attribute__((weak, visibility("default")));
+const char usub_routine_abi_hash[17] = USUB_ABI_HASH;
+#endif
+
+"""
+
 #: External name of a routine as Fortran compilers on Linux form it; also in omi_for_c.h.
 FOR_NAME = """\
 /** External name of a routine: lower case and one underscore. */
@@ -68,8 +77,7 @@ def _versions() -> str:
     return (
         "/** Version and hash of the tables that this header was made from. */\n"
         f"#define USUB_ABI_VERSION {abi.ABI_VERSION}\n"
-        f'#define USUB_ABI_HASH "{abi.abi_hash()}"\n\n'
-        "/** Length of the blank-padded names. */\n"
+        f'#define USUB_ABI_HASH "{abi.abi_hash()}"\n\n' + _STAMP + "/** Length of the blank-padded names. */\n"
         f"#define USUB_NAME_LENGTH {abi.NAME_LENGTH}\n\n"
         "/** How an entry is called: with the published argument list and hidden lengths, or as\n"
         " * `int f(void **argv)` with the addresses of the arguments in their order. */\n"

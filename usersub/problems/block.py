@@ -57,6 +57,9 @@ class Stop(NamedTuple):
         return abs(self.time / exact.time - 1.0), abs(self.distance / exact.distance - 1.0)
 
 
+#: The answer of a run that has not stopped the block.
+NOT_STOPPED = Stop(np.nan, np.nan)
+
 #: Gauss points of the exact answer; the integrand is analytic, and 40 points reach rounding.
 _GAUSS_POINTS = 40
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from usersub import stick_force_kinematic
-from usersub.problems.block import Block, Stop
+from usersub.problems.block import NOT_STOPPED, Block, Stop
 from usersub.problems.elements import Mesh
 from usersub.problems.explicit_contact import ExplicitContact, mean_slip
 
@@ -102,4 +102,4 @@ class FiniteElementBlock:
                 return Stop(t + rest, here + 0.5 * middle * rest)
             u += dt * v
             t, before = t + dt, now
-        return Stop(np.nan, np.nan)
+        return NOT_STOPPED

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from usersub.problems.block import Block, Stop
+from usersub.problems.block import NOT_STOPPED, Block, Stop
 from usersub.problems.problem import Stopwatch
 from usersub.problems.rigid import contact_areas
 
@@ -107,10 +107,12 @@ class ImplicitBlock:
         return float(_DIRECTION @ v), float(_DIRECTION @ x), force
 
     def stop(self, guess: float, count: int, rows: list | None = None) -> Stop:
-        """Time and distance at rest after `count` equal increments."""
+        """Time and distance at rest after `count` equal increments; NaN if nothing brakes."""
         time = guess
         for _ in range(_NEWTON_LIMIT):
             v, x, force = self.slide(time, count)
+            if not force > 0.0:
+                return NOT_STOPPED
             change = v * self.block.mass / force
             time += change
             if abs(change) <= 1e-14 * time:
@@ -124,8 +126,11 @@ class ImplicitBlock:
         stops: list[Stop] = []
         for level in reversed(range(_ROMBERG_LEVELS)):
             last = level == 0
-            guess = stops[-1].time if stops else guess
-            stops.append(self.stop(guess, max(1, count >> level), rows if last else None))
+            stop = self.stop(guess, max(1, count >> level), rows if last else None)
+            if stop is NOT_STOPPED:
+                return NOT_STOPPED
+            stops.append(stop)
+            guess = stop.time
         return Stop(_romberg([s.time for s in stops]), _romberg([s.distance for s in stops]))
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.errors import SceneError
 from usersub.problems import block_fe, block_implicit, elements, rigid
 from usersub.problems.block import Block, Stop
 from usersub.problems.explicit_contact import ANALYTICAL, FACET, ExplicitContact
@@ -31,6 +32,7 @@ METHODS = {
 OPTIONS = {
     "points": "contact points of the rigid block",
     "steps": "increments until the rigid block stands still, about",
+    "step_share": "time increment of the finite-element block over the largest stable one",
     "history": "True to keep time, distance, velocity and friction force",
 }
 
@@ -40,6 +42,9 @@ FE_TOLERANCE = Stop(2.5e-3, 5e-4)
 
 #: Rounding that single precision is allowed.
 _SINGLE_TOLERANCE = 1e-6
+
+#: A block that still slides after this many exact stopping times does not stop.
+_PATIENCE = 1.5
 
 #: Contact points of the rigid block.
 _POINTS = {"explicit": 1024, "implicit": 64}
@@ -54,6 +59,7 @@ class BlockRun:
         props: properties of the law.
         tolerance: relative error of the rigid block in double precision.
         steps: increments until the rigid block stands still, about.
+        step_share: time increment of the finite-element block over the largest stable one.
         rows: time, distance, velocity, friction force of every increment, or None.
     """
 
@@ -68,10 +74,18 @@ class BlockRun:
     method: str
     points: int | None = None
     steps: int = 128
+    step_share: float = 0.9
     history: bool = False
     rows: list | None = field(init=False)
 
     def __post_init__(self) -> None:
+        if not self.steps >= 1:
+            raise SceneError(f"problem {self.problem}: steps is {self.steps}, expected 1 or more")
+        if not 0.0 < self.step_share <= 1.0:
+            raise SceneError(
+                f"problem {self.problem}: step_share is {self.step_share}, expected a number above "
+                "0 and not above 1"
+            )
         if self.points is None:
             self.points = _POINTS["implicit" if self.method in _IMPLICIT_METHODS else "explicit"]
         self.rows = [] if self.history else None
@@ -85,12 +99,13 @@ class BlockRun:
         else:
             stop, watch, step = self._finite_elements() if elastic else self._rigid()
         time_error, distance_error = stop.error(self.exact)
-        error, what = max(time_error, distance_error), "stopping time and distance"
+        error, what = float(np.max([time_error, distance_error])), "stopping time and distance"
         tolerance = self.tolerance
         if elastic:
             # Weighed with what each may be off, so that one number tells.
             weight = FE_TOLERANCE.time / FE_TOLERANCE.distance
-            error, tolerance = max(time_error, weight * distance_error), FE_TOLERANCE.time
+            error = float(np.max([time_error, weight * distance_error]))
+            tolerance = FE_TOLERANCE.time
             what = f"stopping time, {weight:.0f} x distance"
         elif self.precision == "single":
             tolerance = max(tolerance, _SINGLE_TOLERANCE)
@@ -98,7 +113,10 @@ class BlockRun:
             problem=self.problem, law=self.law, interface=self.routine.interface.name,
             language=self.routine.language, precision=self.precision, method=self.method,
             step=step, points=self.points, error=error, error_of=what, tolerance=tolerance,
-            details={"time_error": time_error, "distance_error": distance_error, **details},
+            details={
+                "time_error": time_error, "distance_error": distance_error,
+                "stopping_time": stop.time, "distance": stop.distance, **details,
+            },
             history=_columns(self.rows), **watch.times(self.points),
         )  # fmt: skip
 
@@ -115,7 +133,8 @@ class BlockRun:
         # Not a divisor of the stopping time: the last increment has to be shortened.
         step = self.exact.time / (self.steps - 0.37)
         scheme = rigid.runge_kutta if self.method == "rigid rk4" else rigid.central_differences
-        return scheme(self.block, force, step, self.rows), contact.watch, step
+        stop = scheme(self.block, force, step, _PATIENCE * self.exact.time, self.rows)
+        return stop, contact.watch, step
 
     def _finite_elements(self) -> tuple[Stop, Stopwatch, float]:
         element, _, plane = self.method.partition(" ")
@@ -126,8 +145,8 @@ class BlockRun:
             precision=self.precision, contact=ANALYTICAL if plane else FACET,
         )  # fmt: skip
         self.points = contact.points
-        host = block_fe.FiniteElementBlock(self.block, mesh, contact)
-        stop = host.run(1.5 * self.exact.time, self.rows)
+        host = block_fe.FiniteElementBlock(self.block, mesh, contact, share=self.step_share)
+        stop = host.run(_PATIENCE * self.exact.time, self.rows)
         return stop, contact.watch, host.time_increment
 
     def _implicit(self) -> tuple[Stop, Stopwatch, float, dict[str, float]]:

@@ -114,6 +114,8 @@ class Problem:
         interface = one_of("interface", [routine.interface.name], self.methods, self.name)
         methods = self.methods[interface]
         method = one_of("method", [method or methods[0]], methods, f"{self.name} by {interface}")
+        precisions = routine.interface.precisions
+        one_of("precision", [precision], precisions, f"{self.name} by {interface}")
         return self.runner(routine, law, precision, method, **options)
 
 

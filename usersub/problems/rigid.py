@@ -19,7 +19,7 @@ from collections.abc import Callable
 import numpy as np
 
 from usersub import stick_force_kinematic
-from usersub.problems.block import Block, Stop
+from usersub.problems.block import NOT_STOPPED, Block, Stop
 from usersub.problems.explicit_contact import ExplicitContact, mean_slip
 
 #: Friction force of the whole block: force(velocity, slip, time_increment, time).
@@ -66,39 +66,46 @@ def friction_of(block: Block, contact: ExplicitContact, direction: np.ndarray) -
 
 
 def central_differences(
-    block: Block, force: Force, time_increment: float, history: list | None = None
+    block: Block, force: Force, time_increment: float, end: float, history: list | None = None
 ) -> Stop:
-    """Explicit central differences until the stick force bounds the friction."""
+    """Explicit central differences until the stick force bounds the friction.
+
+    NaN if that has not happened by the time `end`.
+    """
     x, v, t, m = 0.0, block.velocity, 0.0, block.mass
     h = 0.5 * time_increment  # the first increment takes the velocity to the middle of the step
     before = 0.0
-    while True:
+    while t < end:
         slip = mean_slip(*(np.array([[a]]) for a in (v, v, -before)), np.array([m]), h)
         now = force(v, float(slip[0, 0]), h, t + h)
         if now * h >= v * m * (1.0 - 1e-6):
-            break
+            # The bound took the share `now/before` of the last increment, counted from where v
+            # belongs.
+            start, deceleration = t - 0.5 * time_increment, before / m
+            at_start = x - 0.5 * v * time_increment + 0.125 * deceleration * time_increment**2
+            rest = h * now / before
+            return Stop(start + rest, at_start + 0.5 * v * rest)
         v -= now * h / m
         x += v * time_increment
         t += time_increment
         before, h = now, time_increment
         if history is not None:
             history.append((t, x, v, now))
-    # The bound took the share `now/before` of the last increment, counted from where v belongs.
-    start, deceleration = t - 0.5 * time_increment, before / m
-    at_start = x - 0.5 * v * time_increment + 0.125 * deceleration * time_increment**2
-    rest = h * now / before
-    return Stop(start + rest, at_start + 0.5 * v * rest)
+    return NOT_STOPPED
 
 
 def runge_kutta(
-    block: Block, force: Force, time_increment: float, history: list | None = None
+    block: Block, force: Force, time_increment: float, end: float, history: list | None = None
 ) -> Stop:
-    """Fourth-order steps in time, the last one over the velocity."""
+    """Fourth-order steps in time, the last one over the velocity.
+
+    NaN if the last one has not begun by the time `end`.
+    """
     x, v, t, dt, m = 0.0, block.velocity, 0.0, time_increment, block.mass
-    while True:
+    while t < end:
         a = force(v, v * dt, dt, t) / m
         if v <= _INCREMENTS_LEFT * a * dt:
-            break
+            return _over_the_velocity(m, force, x, v, t, a)
         v2 = v - 0.5 * dt * a
         a2 = force(v2, v2 * dt, dt, t) / m
         v3 = v - 0.5 * dt * a2
@@ -110,6 +117,11 @@ def runge_kutta(
         t += dt
         if history is not None:
             history.append((t, x, v, m * a4))
+    return NOT_STOPPED
+
+
+def _over_the_velocity(m: float, force: Force, x: float, v: float, t: float, a: float) -> Stop:
+    """From the velocity `v` with the deceleration `a` to rest."""
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     time, distance = t, x
     for node, weight in zip(nodes, weights, strict=True):

@@ -8,7 +8,8 @@ import os
 import re
 from pathlib import Path
 
-from usersub.errors import LoadError
+from usersub import abi
+from usersub.errors import AbiError, LoadError
 from usersub.routine import build, cache, compilers, debuginfo, objects
 from usersub.routine.build import Build
 from usersub.routine.support import support
@@ -88,6 +89,7 @@ def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
 
     Raises:
         LoadError: the loader's words, or the symbols that nobody defines.
+        AbiError: it was built with the header of other tables.
     """
     ours = support().library
     offered = set(objects.read(ours).functions)
@@ -109,8 +111,22 @@ def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
     ]
     if nowhere:
         raise LoadError(_needs(path, nowhere))
+    _check_tables(path, loaded)
     _redirect_stops(loaded)
     return loaded
+
+
+def _check_tables(path: Path, loaded: ctypes.CDLL) -> None:
+    """Refuses a library that was built with the header of other tables."""
+    try:
+        found = (ctypes.c_char * 17).in_dll(loaded, "usub_routine_abi_hash").value.decode("ascii")
+    except ValueError:
+        return  # built without our header, as field code is
+    if found != abi.abi_hash():
+        raise AbiError(
+            f"{path.name} was built with argument tables of hash {found}, but this package has "
+            f"{abi.abi_hash()}; build it again"
+        )
 
 
 def _needs(path: Path, names: list[str]) -> str:

@@ -87,6 +87,10 @@ def _fault(
         return "has assumed shape (:), which the interface cannot pass; give its dimensions"
     if parameter.kind == "":
         return ""
+    if parameter.kind == "other" and language != "fortran" and kind == "real":
+        # A structure of the components of a column, say; its members are not looked at.
+        if parameter.size and parameter.size % size == 0:
+            return ""
     if kind == "char" and language == "fortran" and unused and parameter.kind != "char":
         return ""
     if parameter.kind == kind and size in (0, parameter.size):

@@ -8,7 +8,7 @@ import re
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from zipfile import BadZipFile
+from zipfile import BadZipFile, is_zipfile
 
 import numpy as np
 
@@ -106,11 +106,17 @@ class ArraySource(Source):
             for axis, (n, full) in enumerate(zip(array.shape, (rows, points, width), strict=True))
         )
         if not fits:
-            given = "x".join(map(str, self._arrays[name].shape)) or "a single number"
             raise SceneError(
-                f"{self.where} {name} is {given}, expected {_expected(name, rows, points, width)}"
+                f"{self.where} {name} is {_shape_words(self._arrays[name].shape)}, expected "
+                f"{_expected(name, rows, points, width)}"
             )
         return np.broadcast_to(array, (rows, points, width)).copy()
+
+
+def _shape_words(shape: tuple[int, ...]) -> str:
+    if len(shape) == 1:
+        return f"an array of {shape[0]} numbers"
+    return "x".join(map(str, shape)) or "a single number"
 
 
 def _expected(name: str, rows: int, points: int, width: int) -> str:
@@ -180,6 +186,13 @@ class CsvSource(Source):
 
 def _parse_header(where: str, text: str) -> tuple[str, int, int | None]:
     """Name, component (from 1) and point (from 0, or None) of a CSV column."""
+    if ";" in text or "\t" in text:
+        raise SceneError(f"{where}: the header is '{text}'; columns are separated by commas")
+    if _is_real(text):
+        raise SceneError(
+            f"{where}: the first line begins with the number {text}; expected a header that names "
+            f"the columns, such as time, slip_1, pressure"
+        )
     found = _HEADER.match(text)
     name = found.group(1).lower() if found else text.lower()
     if not found or name not in NAMES:
@@ -206,6 +219,8 @@ def _read_csv(path: Path) -> tuple[list[str], np.ndarray]:
                     continue
                 if not header:
                     header = [c.strip() for c in cells]
+                    for text in header:
+                        _parse_header(str(path), text)
                     continue
                 place = f"{path}:{reader.line_num}"
                 if len(cells) != len(header):
@@ -221,13 +236,17 @@ def _read_csv(path: Path) -> tuple[list[str], np.ndarray]:
 
 
 def _cell(place: str, name: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if not is_number(value):
+    if not _is_real(text):
         raise SceneError(f"{place}: {name} = '{text.strip()}' must be a finite number")
-    return value
+    return float(text)
+
+
+def _is_real(text: str) -> bool:
+    """Whether `text` is a finite number as other programs write it: 1_0 is none."""
+    try:
+        return "_" not in text and is_number(float(text))
+    except ValueError:
+        return False
 
 
 def read_npz(path: Path) -> ArraySource:
@@ -235,6 +254,8 @@ def read_npz(path: Path) -> ArraySource:
     arrays = {}
     refused = (OSError, ValueError, EOFError, KeyError, AttributeError, BadZipFile, zlib.error)
     try:
+        if not is_zipfile(path) and path.is_file():
+            raise BadZipFile("it is no archive of arrays as numpy.savez writes it")
         with np.load(path, allow_pickle=False) as stored:
             for name in stored.files:
                 arrays[name] = stored[name]

@@ -13,6 +13,7 @@ from usersub.errors import MissingTool, SceneError
 from usersub.scenefile.results import Columns, HistoryResult
 
 _LINES = 8
+_TICKS = 5  # labels such as -0.0075 do not touch each other
 _UNITS = "units are given by the user's unit system"
 
 
@@ -58,6 +59,7 @@ def _draw_points(figure: Any, history: HistoryResult) -> None:
     against_slip.set_xlabel("slip [length]")
     against_time.set_xlabel("time [time]")
     for axes in (against_slip, against_time):
+        axes.locator_params(axis="x", nbins=_TICKS)
         axes.set_ylabel("friction stress [stress]")
         axes.grid(alpha=0.3)
     if len(lines) > 1:
@@ -71,6 +73,7 @@ def _draw_columns(figure: Any, history: Columns) -> None:
     first, *others = history.columns
     for axes, name in zip(np.ravel(figure.subplots(1, len(others))), others, strict=True):
         axes.plot(history.columns[first], history.columns[name])
+        axes.locator_params(axis="x", nbins=_TICKS)
         axes.set_xlabel(first)
         axes.set_ylabel(name.replace("_", " "))
         axes.grid(alpha=0.3)

@@ -116,7 +116,9 @@ def _check_names(table: Table, names: list[str]) -> None:
     if "time" not in names:
         raise table.error("needs the column 'time'")
     for pair in _EITHER:
-        if sum(n in names for n in pair) != 1:
+        if all(n in names for n in pair):
+            raise table.error(f"gives both '{pair[0]}' and '{pair[1]}'; expected one of them")
+        if not any(n in names for n in pair):
             raise table.error(f"needs one of the columns '{pair[0]}' and '{pair[1]}'")
     for name in _SIDES:
         sides = [s for s in (f"{name}_secondary", f"{name}_main") if s in names]

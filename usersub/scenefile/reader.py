@@ -140,7 +140,9 @@ def _routine(top: Table, folder: Path) -> tuple[Path | None, str | None]:
     if given is None:
         return None, None
     path = folder / given
-    if "/" in given or Path(given).suffix in SUFFIXES or path.is_file():
+    if "/" in given or Path(given).suffix in SUFFIXES or (given.strip() and path.exists()):
+        if path.is_dir():
+            raise top.error(f"routine = {show(given)}: {path} is a folder, expected a file")
         if not path.is_file():
             raise top.error(f"routine = {show(given)}: there is no file {path}")
         return path, None
@@ -159,9 +161,10 @@ def _settings(table: Table) -> dict[str, Any]:
         if value is not None:
             found[setting.key] = value
     table.finish()
-    for key in ("points", "dimension"):
-        if found.get(key, 2) < (1 if key == "points" else 2):
-            raise table.error(f"{key} = {found[key]} is too small")
+    if found.get("points", 1) < 1:
+        raise table.error(f"points = {found['points']} must be at least 1")
+    if found.get("dimension", 3) not in (2, 3):
+        raise table.error(f"dimension = {found['dimension']} must be 2 or 3")
     for key in ("states", "fields", "temperatures", "friction_directions"):
         if found.get(key, 0) < 0:
             raise table.error(f"{key} = {found[key]} must not be negative")

@@ -34,6 +34,16 @@ class HistoryResult:
     cut_backs: int = 0
     notes: list[str] = field(default_factory=list)
 
+    def note_overflow(self) -> None:
+        """Notes the columns that hold numbers beyond the range of double precision."""
+        for name, array in self.columns.items():
+            bad = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+            if bad.any():
+                self.notes.append(
+                    f"{name} is not finite from increment {int(np.argmax(bad)) + 1} on: the "
+                    "history's numbers are too large"
+                )
+
     @property
     def increments(self) -> int:
         """Number of increments."""

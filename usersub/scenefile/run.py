@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from usersub import errors
 from usersub.scenefile import explicit, results, standard
 from usersub.scenefile.geometry import Progress
@@ -86,13 +88,15 @@ def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
         progress(done, total)
 
     try:
-        runner.run(driver, settings, history, result, counted)
+        with np.errstate(all="ignore"):  # what is not finite in the end is told below
+            runner.run(driver, settings, history, result, counted)
     except errors.RoutineError as error:
         begin, end = history.time[place[0]], history.time[place[0] + 1]
         error.args = (
             f"{error} (history row {place[0] + 1} of {place[1]}, time {begin:g} to {end:g})",
         )
         raise
+    result.note_overflow()
     return Run(scene_file, history=result, plan=driver.plan.explain())
 
 

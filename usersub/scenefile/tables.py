@@ -12,6 +12,7 @@ from typing import Any
 from usersub.errors import SceneError
 
 _REQUIRED = object()
+_INT_END = 2**31
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -70,7 +71,10 @@ class Table:
             return default
         value = self.data[key]
         if not _CHECKS[kind](value):
-            raise self.error(f"{key} = {show(value)} must be {_WORDS[kind]}")
+            words = _WORDS[kind]
+            if kind == "int" and isinstance(value, int) and not isinstance(value, bool):
+                words = f"smaller than {_INT_END}"
+            raise self.error(f"{key} = {show(value)} must be {words}")
         if choices and value not in choices:
             hint = nearest(value, choices) or "."
             raise self.error(f"{key} = {show(value)} must be one of {', '.join(choices)}{hint}")
@@ -106,7 +110,7 @@ def is_number(value: object) -> bool:
 
 
 def _is_int(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and abs(value) < 2**31
+    return isinstance(value, int) and not isinstance(value, bool) and abs(value) < _INT_END
 
 
 _CHECKS = {

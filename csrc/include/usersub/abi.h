@@ -26,6 +26,12 @@ extern "C" {
 #define USUB_ABI_VERSION 1
 #define USUB_ABI_HASH "23d98400839f14ce"
 
+/* What is built with this header says so, and is refused by a library of another table. */
+#if defined(__ELF__) && defined(__GNUC__)
+extern const char usub_routine_abi_hash[17] __attribute__((weak, visibility("default")));
+const char usub_routine_abi_hash[17] = USUB_ABI_HASH;
+#endif
+
 /** Length of the blank-padded names. */
 #define USUB_NAME_LENGTH 80
 

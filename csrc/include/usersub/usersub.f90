@@ -73,6 +73,13 @@ module usersub
       type(c_ptr) :: answer
     end function usub_abi_hash
 
+    function usub_check_abi(hash, error) bind(C, name='usub_check_abi') result(answer)
+      import
+      character(kind=c_char), intent(in) :: hash(*)
+      type(usub_error), intent(out), optional :: error
+      integer(c_int32_t) :: answer
+    end function usub_check_abi
+
     function usub_release() bind(C, name='usub_release') result(answer)
       import
       type(c_ptr) :: answer

@@ -74,6 +74,9 @@ typedef void (*usub_entry)(void);
 int32_t usub_abi_version(void);
 /** Hash of the argument tables, 16 hexadecimal digits; compare with USUB_ABI_HASH. */
 const char *usub_abi_hash(void);
+/** Compares the hash of the header that a host was built with, USUB_ABI_HASH, with the library's.
+ * Libraries of routines that include abi.h are compared when they are opened. */
+int32_t usub_check_abi(const char *hash, usub_error *error);
 /** Release of the library, for example "0.1.0". */
 const char *usub_release(void);
 /** Name of a status ("CUT_BACK"), or "UNKNOWN". Static. */

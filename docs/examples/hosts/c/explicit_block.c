@@ -33,6 +33,7 @@ static void check(int32_t status, const char *message) {
 static usub_routine *open_routine(const char *library, const char *interface) {
   usub_error error;
   usub_routine *routine;
+  check(usub_check_abi(USUB_ABI_HASH, &error), error.message); /* header and library fit */
   check(usub_routine_open(library, interface, NULL, "double", &routine, &error), error.message);
   return routine;
 }

@@ -49,6 +49,7 @@ struct Contact {
       : points_(points) {
     usub_error error;
     usub_routine *routine;
+    check(usub_check_abi(USUB_ABI_HASH, &error), error.message); // header and library fit
     check(usub_routine_open(library, interface.c_str(), nullptr, "double", &routine, &error),
           error.message);
     routine_.reset(routine);

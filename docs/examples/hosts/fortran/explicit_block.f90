@@ -86,6 +86,7 @@ contains
 
   ! Routine, scene and driver; arrays are bound once and read in every step.
   subroutine prepare
+    call check(usub_check_abi(c(usub_module_abi_hash), error), c_loc(error%message))
     call check(usub_routine_open(c(library), c(interface), precision=c('double'), &
                                  routine=routine, error=error), c_loc(error%message))
     ! The scene says what this host has. Whatever it does not mention, it does not have.
