@@ -15,6 +15,7 @@ typedef struct prepared {
   int32_t (*function)(void *driver);
   void *driver;
   PyObject *check; /* check(status), called where the status is not zero */
+  int busy;        /* a thread is in the call; read and written with the GIL only */
 } prepared;
 
 static PyObject *prepared_call(PyObject *self, PyObject *const *arguments, size_t count,
@@ -25,10 +26,14 @@ static PyObject *prepared_call(PyObject *self, PyObject *const *arguments, size_
     PyErr_SetString(PyExc_TypeError, "a prepared call takes no arguments");
     return NULL;
   }
+  if (me->busy)
+    return PyObject_CallFunction(me->check, "i", IN_USE);
   int32_t status;
+  me->busy = 1;
   Py_BEGIN_ALLOW_THREADS;
   status = me->function(me->driver);
   Py_END_ALLOW_THREADS;
+  me->busy = 0;
   if (status != 0)
     return PyObject_CallFunction(me->check, "i", (int)status);
   return PyLong_FromLong(0);

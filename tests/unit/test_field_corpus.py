@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 
 import usersub
+from usersub.core import lib
 from usersub.routine.info import info
 
 pytestmark = pytest.mark.needs_fortran
@@ -346,6 +347,7 @@ def test_every_file_is_in_the_table():
 )
 def test_author(case: Case, precision: str, working: Path, said):
     """Loads, is what it says it is, and computes its law."""
+    lib.usub_end_job()  # global arrays of routines live as long as the job
     shutil.copy(_AUTHORS / "mu_table.dat", working)
     file = usersub.load(_AUTHORS / case.file, precision=precision)
     expected = [c.interface for c in _CASES if c.file == case.file]
@@ -354,6 +356,6 @@ def test_author(case: Case, precision: str, working: Path, said):
     assert routine.interface.generation == case.generation
     drive = _DRIVES.get(case.interface, _coefficient)
     found, law = drive(case, routine, precision)
-    assert np.abs(law).min() > 0
+    assert np.abs(law).reshape(-1, _POINTS).max(axis=0).min() > 0
     tolerance = max(case.loose, _TOLERANCE[precision])
     np.testing.assert_allclose(found, law, rtol=tolerance, atol=tolerance * np.abs(law).max())

@@ -85,9 +85,9 @@ def common(name: str) -> Callable[[Callable[..., int | None]], Callable[..., Non
                 code = function(*args, as_json=as_json, **kwargs)
             except Error as error:
                 _fail(name, error, as_json, debug)
-            except OSError as error:
-                if isinstance(error, BrokenPipeError):
-                    raise
+            except BrokenPipeError:
+                raise
+            except (OSError, MemoryError) as error:
                 _fail(name, error, as_json, debug)
             sys.exit(code or OK)
 
@@ -113,6 +113,8 @@ def _sentence(error: Exception) -> str:
     if isinstance(error, OSError) and not isinstance(error, Error):
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror or error}"
+    if isinstance(error, MemoryError):
+        return f"not enough memory: {error or 'the scene is too large for this machine'}"
     text = str(error) or type(error).__name__
     cause = error.__cause__
     if isinstance(error, RoutineError) and cause is not None and str(cause) not in text:

@@ -104,6 +104,9 @@ def command(
         "precision": precisions,
     }
     cases = [c for c in cases if all(_chosen(getattr(c, k), v) for k, v in wanted.items())]
+    if not cases:
+        asked = ", ".join(f"--{k} {' '.join(v)}" for k, v in wanted.items() if v)
+        raise click.UsageError(f"no case of the demo is all of {asked}")
     missing = _missing(sorted({case.language for case in cases}))
     rows = []
     with progress("demo", quiet=as_json) as tell:
@@ -184,7 +187,7 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
         names[2] = names[2].upper()
         cells.append((*names, row["error_of"], *numbers, verdict))
     styles = ["" if row["ok"] else "red" for row in rows]
-    optional = ("error of", "law", "tolerance", "method")
+    optional = ("error of", "tolerance", "law", "method")
     print_table("", _COLUMNS, cells, right=_RIGHT, optional=optional, styles=styles)
     for row in rows:
         if row["failure"] is not None:

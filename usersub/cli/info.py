@@ -41,7 +41,7 @@ _PER_INTERFACE: dict[str, dict[str, Any]] = {
 )
 @common("info")
 def command(routine: Path, interface: str | None, precision: str, as_json: bool) -> None:
-    """Tell what the file ROUTINE (Python, C, C++, Fortran, library) holds.
+    """Tell what the file ROUTINE (Python, C, C++, Fortran, library, or a built-in law) holds.
 
     Prints its interfaces, compiler and flags, the arguments that are used and written, data that
     outlives a call, other entries, and the plan of a driver. A file whose argument list is not that
@@ -50,6 +50,7 @@ def command(routine: Path, interface: str | None, precision: str, as_json: bool)
     import usersub
     from usersub.routine.info import info
 
+    routine = _file(routine)
     file = usersub.load(routine, precision=precision, interface=interface)
     found = info(file)
     plans = {name: _plan(file[name], precision) for name in file}
@@ -64,6 +65,17 @@ def command(routine: Path, interface: str | None, precision: str, as_json: bool)
     _print_file(found)
     for one in found.routines:
         _print_routine(one, plans[one.interface])
+
+
+def _file(given: Path) -> Path:
+    """The file to tell of; the name of a built-in law stands for its routine in Python."""
+    from usersub import laws
+
+    if given.is_dir():
+        raise Error(f"{given} is a folder, expected a routine file")
+    if given.name == str(given) in laws.LAWS and not given.exists():
+        return laws.path(given.name, "python")
+    return given
 
 
 def _plan(routine: Any, precision: str) -> Any:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import click
 
 from usersub.cli.command import Commands
+from usersub.cli.interrupt import end_when_interrupted
 
 _LAZY = {
     "demo": ("usersub.cli.demo", "Run problems with known answers through every interface."),
@@ -54,4 +55,5 @@ def cli() -> None:
 
 def main() -> None:
     """Entry point of the script `usersub`."""
+    end_when_interrupted()
     cli(prog_name="usersub")

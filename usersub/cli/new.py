@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import sys
 from pathlib import Path
 
 import click
@@ -26,6 +27,8 @@ pytestmark = pytest.mark.skipif(
 )
 """
 _WIDTH = 72
+#: Modules that routines and tests import, directly or not, beside those of Python itself.
+_MODULES = ("usersub", "numpy", "numba", "llvmlite", "cffi", "scipy", "pytest", "click", "rich")
 
 
 def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
@@ -36,8 +39,8 @@ def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
             f"'{value}' must be letters, digits and underscores, begin with a letter, be no "
             "Python keyword and not be too long"
         )
-    if value in ("usersub", "math"):
-        raise click.BadParameter(f"'{value}' would hide a module that the routine imports")
+    if value in _MODULES or value in sys.stdlib_module_names:
+        raise click.BadParameter(f"'{value}' would hide the Python module of that name")
     return value
 
 
@@ -83,10 +86,16 @@ def command(name: str, interface: str, language: str, folder: Path, as_json: boo
     for path in files:
         if path.exists():
             raise Error(f"{path} exists already and is not overwritten; choose another name")
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Error(f"the folder {folder} cannot be made: {error.strerror}") from error
     for path, text in files.items():
-        with path.open("x", encoding="utf-8") as stream:
-            stream.write(text)
+        try:
+            with path.open("x", encoding="utf-8") as stream:
+                stream.write(text)
+        except OSError as error:
+            raise Error(f"{path} cannot be written: {error.strerror}") from error
     source, test, scene = (relative(p) for p in files)
     if as_json:
         kinds = zip(("routine", "test", "scene"), (source, test, scene), strict=True)

@@ -26,16 +26,20 @@ _MEANING = {
         "cc host.c -I$(usersub paths --include) $(usersub paths --library)",
     ),
 )
-@click.option("--prefix", "what", flag_value="prefix", help=f"Only {_MEANING['prefix']}.")
-@click.option("--include", "what", flag_value="include", help=f"Only {_MEANING['include']}.")
-@click.option("--library", "what", flag_value="library", help=f"Only {_MEANING['library']}.")
-@click.option("--cmake", "what", flag_value="cmake", help=f"Only {_MEANING['cmake']}.")
-@click.option("--pkgconfig", "what", flag_value="pkgconfig", help=f"Only {_MEANING['pkgconfig']}.")
+@click.option("--prefix", is_flag=True, help=f"Only {_MEANING['prefix']}.")
+@click.option("--include", is_flag=True, help=f"Only {_MEANING['include']}.")
+@click.option("--library", is_flag=True, help=f"Only {_MEANING['library']}.")
+@click.option("--cmake", is_flag=True, help=f"Only {_MEANING['cmake']}.")
+@click.option("--pkgconfig", is_flag=True, help=f"Only {_MEANING['pkgconfig']}.")
 @common("paths")
-def command(what: str | None, as_json: bool) -> None:
+def command(as_json: bool, **asked: bool) -> None:
     """Print the folders of the installed package that hosts in C, C++ and Fortran build against."""
     from usersub import paths
 
+    wanted = [name for name, given in asked.items() if given]
+    if len(wanted) > 1:
+        raise click.UsageError(f"--{wanted[0]} and --{wanted[1]}: expected one of them")
+    what = wanted[0] if wanted else None
     found = {
         "prefix": paths.prefix(),
         "include": paths.include_folder(),

@@ -12,8 +12,8 @@ from usersub.cli.command import Examples, common
 from usersub.cli.demo import print_rows, row_of
 from usersub.cli.output import number, print_json, print_table, progress, relative
 
-#: Lines that are printed of a history, at most.
-_LINES = 24
+#: Lines that are printed of a history: all up to so many, or a selection of so few.
+_ALL, _LINES = 40, 24
 _HIDDEN = ("sed", "sfd", "dslip", "stick_force", "force")
 
 
@@ -73,7 +73,7 @@ def command(scene: Path, show_plan: bool, everything: bool, as_json: bool) -> in
 def _print_history(history: Any, everything: bool) -> None:
     rows = list(history.rows())
     shown = rows
-    if not everything and len(rows) > _LINES:
+    if not everything and len(rows) > _ALL:
         step = (len(rows) - 1) / (_LINES - 1)
         shown = [rows[round(i * step)] for i in range(_LINES)]
     names = [n for n in rows[0] if everything or not _hidden(n)]

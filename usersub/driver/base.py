@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import functools
+import sys
+import threading
 from collections.abc import Callable
 from typing import Any, ClassVar
 
@@ -20,6 +23,24 @@ from usersub.errors import RoutineError, SceneError
 from usersub.routine.routine import Routine
 
 _RAISED = status.VALUES["ROUTINE_RAISED"]
+
+
+def alone(method: Callable) -> Callable:
+    """Refuses a call of a driver's method while another thread is in one: they share memory."""
+
+    @functools.wraps(method)
+    def call(self: Driver, *arguments: Any, **named: Any) -> Any:
+        if not self._lock.acquire(blocking=False):
+            raise SceneError(
+                f"{self._title}: the driver is in use by another thread; expected one thread at a "
+                "time, so make a driver for each"
+            )
+        try:
+            return method(self, *arguments, **named)
+        finally:
+            self._lock.release()
+
+    return call
 
 
 class Driver:
@@ -56,10 +77,15 @@ class Driver:
         self._views: dict[str, np.ndarray | None] = {}
         self._points = scene["points"]
         self._clock = Clock()
+        self._lock = threading.RLock()
         self.state = State(self)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self._title}, {self.scene['points']} contact points>"
 
     # Arrays.
 
+    @alone
     def bind(self, **arrays: np.ndarray | None) -> None:
         """Binds numpy arrays by name, without a copy; None unbinds.
 
@@ -135,6 +161,7 @@ class Driver:
         return self._points
 
     @points.setter
+    @alone
     def points(self, count: int) -> None:
         self._check(lib.usub_set_points(self._handle, int32("points", count)))
         self._points = count
@@ -166,6 +193,7 @@ class Driver:
         )
         return Plan(title, tuple(rows), block, threads)
 
+    @alone
     def save_state(self) -> bytes:
         """The committed state as bytes (`state.save`)."""
         size = lib.usub_state_size(self._handle)
@@ -173,6 +201,7 @@ class Driver:
         self._check(lib.usub_state_save(self._handle, ffi.from_buffer(buffer), size))
         return bytes(buffer)
 
+    @alone
     def load_state(self, data: bytes) -> None:
         """Takes over saved state (`state.load`)."""
         self._check(lib.usub_state_load(self._handle, ffi.from_buffer(data), len(data)))
@@ -191,7 +220,7 @@ class Driver:
         """
         if self.routine.after_call is not None:
             call, handle = getattr(lib, self._c_call), self._handle
-            return lambda: self._finish(call(handle))
+            return functools.partial(alone(lambda self: self._finish(call(handle))), self)
         function = ffi.addressof(lib, self._c_call)
         addresses = (int(ffi.cast("uintptr_t", pointer)) for pointer in (function, self._handle))
         return Prepared(*addresses, self._check)
@@ -219,9 +248,9 @@ class Driver:
         if not isinstance(raised, RoutineError):
             raise raised
         cause, where = self._cause() if found == _RAISED else (None, "")
-        if cause is not None and not isinstance(cause, Exception):
-            raise cause  # KeyboardInterrupt and its like are not the routine's
-        words = f": {type(cause).__name__}: {cause}" if cause is not None else ""
+        if cause is not None and not _of_routine(cause):
+            raise cause
+        words = f": {_words(cause)}" if cause is not None else ""
         place = where or self.routine.origin
         name = f"routine '{self.routine.name}'" + (f", {place}" if place else "")
         raised.args = (f"{raised}{words} ({name})",)
@@ -239,6 +268,19 @@ class Driver:
         if cause is not None:
             keep.exception = None
         return cause, where
+
+
+def _of_routine(cause: BaseException) -> bool:
+    """Whether the routine failed; KeyboardInterrupt and the end of a debugger are the user's."""
+    debugger = sys.modules.get("bdb")
+    return isinstance(cause, Exception) and not (
+        debugger is not None and isinstance(cause, debugger.BdbQuit)
+    )
+
+
+def _words(cause: BaseException) -> str:
+    name, text = type(cause).__name__, str(cause)
+    return f"{name}: {text}" if text else name
 
 
 def _check_types(driver: type[Driver], routine: Routine, scene: Scene) -> None:

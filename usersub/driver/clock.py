@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,17 @@ from usersub.errors import SceneError
 
 def int32(name: str, value: int) -> int:
     """`value` as an integer of 4 bytes, or SceneError."""
-    if isinstance(value, int | np.integer) and -(2**31) <= value < 2**31:
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if whole and -(2**31) <= value < 2**31:
         return int(value)
     raise SceneError(f"{name} = {value!r}; expected an integer of 4 bytes")
+
+
+def real(name: str, value: float) -> float:
+    """`value` as a float, or SceneError; the C core checks whether it is finite."""
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        return float(value)
+    raise SceneError(f"{name} = {value!r}; expected a real number")
 
 
 class Clock:
@@ -35,7 +44,7 @@ class Clock:
     ) -> tuple[int, int, float, float, float]:
         """Arguments of `usub_set_time` for an increment that ends at the given times."""
         same = step == self.step
-        duration = float(time_increment)
+        duration = real("time_increment", time_increment)
         if increment is None:
             increment = self.increment + 1 if same else 1
         if step_time is None:
@@ -45,8 +54,8 @@ class Clock:
         return (
             int32("step", step),
             int32("increment", increment),
-            float(step_time),
-            float(total_time),
+            real("step_time", step_time),
+            real("total_time", total_time),
             duration,
         )
 

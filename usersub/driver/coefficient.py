@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from usersub.core import lib
-from usersub.driver.base import Driver
+from usersub.driver.base import Driver, alone
 
 
 class CoefficientDriver(Driver):
@@ -16,6 +16,7 @@ class CoefficientDriver(Driver):
     interfaces = ("fric_coef", "vfric_coef")
     _c_call = "usub_evaluate"
 
+    @alone
     def evaluate(
         self,
         *,

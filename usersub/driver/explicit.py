@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from usersub.core import lib
-from usersub.driver.base import Driver
+from usersub.driver.base import Driver, alone
 
 
 class ExplicitResponse(NamedTuple):
@@ -32,6 +32,7 @@ class ExplicitDriver(Driver):
     interfaces = ("vfric", "vfriction", "vfric_coef")
     _c_call = "usub_step"
 
+    @alone
     def step(
         self,
         time_increment: float,

@@ -115,6 +115,8 @@ def _checked(key: str, value: object) -> int | float | str:
 
 def _checked_int(setting: ports.Setting, value: object) -> int:
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
         raise SceneError(

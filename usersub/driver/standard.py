@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from usersub.core import lib
-from usersub.driver.base import Driver
+from usersub.driver.base import Driver, alone
 
 _OUTPUTS = ("tau", "ddtddg", "ddtddp", "ddtddt", "lm", "dslip", "sed", "sfd")
 
@@ -50,6 +50,7 @@ class StandardDriver(Driver):
     interfaces = ("fric", "fric_coef")
     _c_call = "usub_iterate"
 
+    @alone
     def begin_increment(
         self,
         time_increment: float,
@@ -63,6 +64,7 @@ class StandardDriver(Driver):
         self._set_time(step, increment, (time_increment, step_time, total_time))
         self._check(lib.usub_begin_increment(self._handle))
 
+    @alone
     def iterate(self, **arrays: np.ndarray | None) -> StandardResponse:
         """One Newton iteration for all closed points, after binding `arrays`.
 
@@ -76,11 +78,13 @@ class StandardDriver(Driver):
         results: dict[str, Any] = {name: self._result(name) for name in _OUTPUTS}
         return StandardResponse(**results, pnewdt=lib.usub_pnewdt(self._handle), cut_back=found > 0)
 
+    @alone
     def commit(self) -> None:
         """Accepts the last iteration: its end values are the start values of the next increment."""
         self._check(lib.usub_commit(self._handle))
         self._clock.accept()
 
+    @alone
     def cut_back(self) -> None:
         """Forgets the increment; everything is as before `begin_increment`."""
         self._check(lib.usub_cut_back(self._handle))

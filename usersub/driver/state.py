@@ -44,8 +44,11 @@ class State(Mapping[str, np.ndarray]):
         data = self._driver.save_state()
         if path is not None:
             temporary = Path(f"{os.fspath(path)}.part")
-            temporary.write_bytes(data)
-            os.replace(temporary, path)
+            try:
+                temporary.write_bytes(data)
+                os.replace(temporary, path)
+            finally:
+                temporary.unlink(missing_ok=True)
         return data
 
     def load(self, source: bytes | bytearray | memoryview | str | os.PathLike[str]) -> None:

@@ -77,7 +77,9 @@ def _versions() -> str:
     return (
         "/** Version and hash of the tables that this header was made from. */\n"
         f"#define USUB_ABI_VERSION {abi.ABI_VERSION}\n"
-        f'#define USUB_ABI_HASH "{abi.abi_hash()}"\n\n' + _STAMP + "/** Length of the blank-padded names. */\n"
+        f'#define USUB_ABI_HASH "{abi.abi_hash()}"\n\n'
+        + _STAMP
+        + "/** Length of the blank-padded names. */\n"
         f"#define USUB_NAME_LENGTH {abi.NAME_LENGTH}\n\n"
         "/** How an entry is called: with the published argument list and hidden lengths, or as\n"
         " * `int f(void **argv)` with the addresses of the arguments in their order. */\n"
