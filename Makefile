@@ -4,7 +4,7 @@ PYTHON ?= python
 PYTEST_ARGS ?=
 C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h)
 
-.PHONY: help build gen check-gen test lint format docs bench clean
+.PHONY: help build gen check-gen test lint format docs bench problems clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -37,6 +37,9 @@ docs: ## build the documentation, warnings are errors
 
 bench: ## run the benchmarks and write their table
 	$(PYTHON) -m tests.benchmarks
+
+problems: ## measure the problems with known answers and write their page
+	$(PYTHON) -m usersub.problems --markdown docs/explanation/problems.md
 
 clean: ## remove what was built
 	rm -rf build dist docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -14,7 +14,7 @@ typedef struct prepared {
   PyObject_HEAD vectorcallfunc vectorcall;
   int32_t (*function)(void *driver);
   void *driver;
-  PyObject *check; /* check(status), called where the status is not zero */
+  PyObject *check; /* check(status), called where the status is not zero; None: in use */
   int busy;        /* a thread is in the call; read and written with the GIL only */
 } prepared;
 
@@ -27,7 +27,7 @@ static PyObject *prepared_call(PyObject *self, PyObject *const *arguments, size_
     return NULL;
   }
   if (me->busy)
-    return PyObject_CallFunction(me->check, "i", IN_USE);
+    return PyObject_CallOneArg(me->check, Py_None);
   int32_t status;
   me->busy = 1;
   Py_BEGIN_ALLOW_THREADS;

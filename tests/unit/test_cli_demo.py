@@ -117,7 +117,10 @@ def test_choosing(demo):
     assert [(r["language"], r["precision"]) for r in found["results"]] == [("c", "single")]
     assert demo(cases, "--problem", "p1").exit_code == 0
     nothing = demo(cases, "--interface", "fric")
-    assert nothing.exit_code == 1 and "0 of 0" in nothing.stdout
+    assert (
+        nothing.exit_code == 2
+        and "no case of the demo is all of --interface fric" in nothing.stderr
+    )
 
 
 def test_unknown_problem(demo):

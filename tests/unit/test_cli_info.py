@@ -130,3 +130,11 @@ def test_files_that_are_none(tmp_path, file, text, words):
 def test_no_file(tmp_path):
     result = info(tmp_path / "none.f90")
     assert result.exit_code == 1 and "none.f90" in result.stderr
+
+
+def test_a_built_in_law_and_a_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(cli, ["info", "coulomb", "--interface", "vfric"])
+    assert result.exit_code == 0 and "VFRIC (explicit)" in result.stdout
+    result = CliRunner().invoke(cli, ["info", str(tmp_path)])
+    assert result.exit_code == 1 and "is a folder, expected a routine file" in result.stderr

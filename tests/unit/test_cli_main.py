@@ -70,8 +70,11 @@ def test_python_dash_m():
         (["new", "a", "-i", "fric", "-l", "rust"], "rust"),
         (["new", "1a", "-i", "fric", "-l", "c"], "'1a' must be letters"),
         (["new", "../a", "-i", "fric", "-l", "c"], "must be letters"),
+        (["new", "numpy", "-i", "fric", "-l", "python"], "would hide the Python module"),
+        (["new", "json", "-i", "fric", "-l", "c"], "would hide the Python module"),
+        (["paths", "--prefix", "--library"], "--prefix and --library: expected one"),
         (["new", "class", "-i", "fric", "-l", "python"], "keyword"),
-        (["new", "usersub", "-i", "fric", "-l", "python"], "would hide a module"),
+        (["new", "usersub", "-i", "fric", "-l", "python"], "would hide the Python module"),
         (["--nonsense"], "--nonsense"),
     ],
 )

@@ -94,3 +94,11 @@ def test_folder_that_cannot_be(tmp_path):
     result = run("new", "a", "-i", "vfric", "-l", "c", "-d", tmp_path / "file" / "below")
     assert result.exit_code in (1, 2)
     assert "Traceback" not in result.stderr and "file" in result.stderr
+
+
+def test_a_folder_that_cannot_be_made(tmp_path):
+    (tmp_path / "file").write_text("")
+    result = CliRunner().invoke(
+        cli, ["new", "law", "-i", "vfric", "-l", "c", "-d", str(tmp_path / "file" / "below")]
+    )
+    assert result.exit_code == 1 and "cannot be made" in result.stderr

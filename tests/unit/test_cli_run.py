@@ -335,9 +335,9 @@ def test_for_programs(tmp_path):
 
 
 def test_plan_and_all_lines(tmp_path):
-    path = write(tmp_path, DECAY["vfric_coef"], TWO + "substeps = 20")
+    path = write(tmp_path, DECAY["vfric_coef"], TWO + "substeps = 21")
     short = cli_run(path).stdout
-    assert "24 of 40 lines" in short and "stick_force" not in short
+    assert "24 of 42 lines" in short and "stick_force" not in short
     long = cli_run(path, "--all", "--plan").stdout
     assert "lines" not in long and "stick_force" in long
     assert "the routine does not use it" in long
@@ -440,3 +440,45 @@ def chatters(LM, TAU, STATEV, KINC):
     assert any("in 1 increments LM still changed after 4 iterations" in n for n in history.notes)
     # On entry of the fourth iteration of increment 2: 0, 1, 2, 0.
     np.testing.assert_array_equal(history.columns["state"][:, 0, 0], [0, 0])
+
+
+def test_numbers_too_large_are_noted_without_warnings(tmp_path):
+    huge = "time = [0, 1]\nslip = [[0, 0], [1e308, 0]]\npressure = 5.0"
+    result = cli_run(write(tmp_path, DECAY["vfric"], huge))
+    assert result.exit_code == 0 and "Warning" not in result.stderr
+    assert "note: dissipation is not finite from increment 1 on" in result.stdout
+
+
+def test_more_points_than_memory(tmp_path, monkeypatch):
+    def full(*arguments):
+        raise MemoryError("Unable to allocate 30 TiB")
+
+    monkeypatch.setattr("usersub.scenefile.setup.complete", full)
+    result = cli_run(write(tmp_path, DECAY["vfric"], TWO))
+    assert result.exit_code == 1
+    assert result.stderr == "usersub run: not enough memory: Unable to allocate 30 TiB\n"
+
+
+def test_a_problem_in_a_precision_that_its_interface_lacks(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text('[problem]\nname = "P3"\n[scene]\nprecision = "single"\n')
+    for top in ("", 'routine = "viscoplastic_creep"\nlanguage = "c"\n'):
+        path.write_text(top + '[problem]\nname = "P3"\n[scene]\nprecision = "single"\n')
+        result = cli_run(path)
+        assert result.exit_code == 1
+        assert "precision 'single'" in result.stderr and "double" in result.stderr
+
+
+def test_figure_labels_do_not_overlap(tmp_path):
+    figures = pytest.importorskip("matplotlib.figure")
+    small = "time = [0, 1, 2]\nslip = [[0, 0], [0.01, 0.02], [-0.01, 0]]\npressure = 5.0"
+    run = run_scene(write(tmp_path, DECAY["vfric"], small))
+    drawn = figures.Figure(figsize=(9.0, 4.0), layout="constrained")
+    figure._draw_points(drawn, run.history)
+    drawn.canvas.draw()
+    for axes in drawn.axes:
+        boxes = [t.get_window_extent() for t in axes.get_xticklabels() if t.get_text()]
+        visible = [b for b in boxes if axes.bbox.x0 - 1 <= 0.5 * (b.x0 + b.x1) <= axes.bbox.x1 + 1]
+        assert len(visible) > 2
+        for left, right in zip(visible, visible[1:], strict=False):
+            assert left.x1 < right.x0

@@ -167,3 +167,43 @@ def test_driver_is_a_package_and_a_function(c_routine):
     assert isinstance(made, usersub.ExplicitDriver)
     with pytest.raises(SceneError, match="str as its routine"):
         usersub.driver("friction.f", usersub.Scene())
+
+
+def test_quitting_a_debugger_inside_a_routine_is_no_failure_of_the_routine():
+    import bdb
+
+    @usersub.vfric_coef(compiled=False)
+    def law(fCoef):
+        raise bdb.BdbQuit
+
+    with pytest.raises(bdb.BdbQuit):
+        usersub.CoefficientDriver(law, usersub.Scene(points=2)).evaluate()
+
+
+def test_an_exception_without_words_leaves_no_gap():
+    @usersub.vfric_coef(compiled=False)
+    def law(fCoef):
+        raise KeyError
+
+    with pytest.raises(RoutineError, match=r": KeyError \(routine 'law'"):
+        usersub.CoefficientDriver(law, usersub.Scene(points=2)).evaluate()
+
+
+@pytest.mark.parametrize("wrong", ["0.1", None, True, np.array([0.1, 0.2]), 1j])
+def test_a_time_that_is_no_number(wrong):
+    made = usersub.ExplicitDriver(law_that_raises(False), usersub.Scene(points=POINTS))
+    with pytest.raises(SceneError, match="time_increment = .*; expected a real number"):
+        made.step(wrong)
+
+
+def test_repr_tells_what_a_driver_is():
+    made = usersub.CoefficientDriver(law_that_raises(False), usersub.Scene(points=POINTS))
+    assert repr(made) == "<CoefficientDriver of VFRIC_COEF 'law', 6 contact points>"
+
+
+def test_a_state_that_cannot_be_saved_leaves_nothing(tmp_path):
+    made = usersub.CoefficientDriver(law_that_raises(False), usersub.Scene(points=POINTS))
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OSError):
+        made.state.save(tmp_path / "folder")
+    assert [p.name for p in tmp_path.iterdir()] == ["folder"]

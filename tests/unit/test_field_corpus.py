@@ -84,7 +84,9 @@ def _arrays(dimension: int, precision: str) -> SimpleNamespace:
     n = _POINTS
     if dimension == 3:
         normal = _unit(np.array([[0.1, -0.5, 0.3, 0.0], [0.2, 0.4, -0.9, 0.6], [1, 2, 1.5, -1.0]]))
-        raw = np.array([[3e-3, -1e-3, 2e-3, 5e-4], [1e-3, 2e-3, -4e-3, 1e-3], [2e-3, 1e-3, 0, 3e-3]])
+        raw = np.array(
+            [[3e-3, -1e-3, 2e-3, 5e-4], [1e-3, 2e-3, -4e-3, 1e-3], [2e-3, 1e-3, 0, 3e-3]]
+        )
         slip = raw - normal * (normal * raw).sum(axis=0)
     else:
         normal = _unit(np.array([[0.1, -0.5, 0.3, 0.0], [1, 2, 1.5, -1.0]]))

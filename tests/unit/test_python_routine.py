@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from numba.extending import register_jitable
 
+import usersub
 from usersub import abi
-from usersub.errors import AbiError, CompileError
+from usersub.errors import AbiError, CompileError, RoutineError
 from usersub.routine import python
 from usersub.routine.routine import BLOCK, FULL, READS, READS_AND_WRITES, UNUSED, WRITES
 from usersub.statuses import STATUSES
@@ -301,8 +302,8 @@ def test_state_behind_rdata_needs_idata():
 
 @pytest.mark.parametrize(
     ("parameters", "generation"),
-    [("slipData", "2022"), ("iData", "2022"), ("slipRate", "legacy"), ("JFLAGS", "legacy"),
-     ("fCoef, props", "2022")],
+    [("fCoef, slipData", "2022"), ("fCoef, iData", "2022"), ("fCoef, slipRate", "legacy"),
+     ("fCoef, JFLAGS", "legacy"), ("fCoef, props", "2022")],
 )  # fmt: skip
 def test_generation_is_told_by_the_names(parameters, generation):
     routine = make(f"def law({parameters}): pass", python.fric_coef)
@@ -658,3 +659,42 @@ def test_a_routine_can_be_copied_with_changes():
 def test_unknown_generation():
     with pytest.raises(AbiError, match="VFRIC has no generation '2022'; it has legacy"):
         make("def law(fTangential): pass", python.vfric, generation="2022")
+
+
+@pytest.mark.parametrize("interface", abi.NAMES)
+def test_a_routine_without_outputs_is_refused(interface):
+    face = abi.interface(interface)
+    reads = next(a.modern for a in face.args if a.intent == "read")
+    writes = next(a.modern for a in face.args if a.intent != "read")
+    with pytest.raises(AbiError, match=f"names nothing that it can write.*{writes}"):
+        make(f"def law({reads}): pass", getattr(python, interface))
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("fCoef[0] = props[1]", "IndexError: index 1 is out of bounds"),
+        ("fCoef[4] = 0.5", "IndexError: index 4 is out of bounds"),
+        ("fCoef[0] = nBlock // (nBlock - nBlock)", "ZeroDivisionError"),
+        ("fCoef[0] = nBlock % (nBlock - nBlock)", "ZeroDivisionError"),
+        ("q, fCoef[0] = divmod(nBlock, nBlock - nBlock)", "ZeroDivisionError"),
+        ("fCoef[0] = 1.0 / (props[0] - props[0])", "inf"),
+    ],
+)
+def test_wrong_index_or_division_is_told(tmp_path, body, words, compiled):
+    """Compiled as uncompiled: nothing beyond an array is read or written, nothing becomes zero."""
+    file = tmp_path / "law.py"
+    file.write_text(
+        f"import usersub\n\n\n@usersub.vfric_coef(compiled={compiled})\n"
+        f"def law(fCoef, nBlock, props):\n    fCoef[:] = 0.25\n    {body}\n"
+    )
+    routine = usersub.load(file)["vfric_coef"]
+    driver = usersub.CoefficientDriver(routine, usersub.Scene(points=4, props=[0.5]))
+    before = driver.state.save()
+    with (
+        np.errstate(divide="ignore"),
+        pytest.raises(RoutineError, match=rf"(?s){words}.*'law'.*law\.py"),
+    ):
+        driver.evaluate(slip_rate=np.ones(4))
+    assert driver.state.save() == before

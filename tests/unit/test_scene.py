@@ -48,6 +48,7 @@ def test_numpy_numbers_are_numbers():
         ({"dimensions": 3}, ["dimensions", "did you mean 'dimension'"]),
         ({"points": 3.0}, ["points", "3.0", "integer"]),
         ({"points": "3"}, ["points", "'3'", "integer"]),
+        ({"points": True}, ["points", "True", "integer"]),
         ({"points": -1}, ["points", "-1"]),
         ({"states": 2**31}, ["states", str(2**31)]),
         ({"elastic_slip": float("nan")}, ["elastic_slip", "nan"]),

@@ -31,10 +31,7 @@ def alone(method: Callable) -> Callable:
     @functools.wraps(method)
     def call(self: Driver, *arguments: Any, **named: Any) -> Any:
         if not self._lock.acquire(blocking=False):
-            raise SceneError(
-                f"{self._title}: the driver is in use by another thread; expected one thread at a "
-                "time, so make a driver for each"
-            )
+            raise self._in_use()
         try:
             return method(self, *arguments, **named)
         finally:
@@ -223,7 +220,7 @@ class Driver:
             return functools.partial(alone(lambda self: self._finish(call(handle))), self)
         function = ffi.addressof(lib, self._c_call)
         addresses = (int(ffi.cast("uintptr_t", pointer)) for pointer in (function, self._handle))
-        return Prepared(*addresses, self._check)
+        return Prepared(*addresses, self._check_prepared)
 
     _c_call: ClassVar[str]  # the function of the C core that a prepared call repeats
 
@@ -238,6 +235,18 @@ class Driver:
         values = self._clock.at(step, increment, *times)
         self._check(lib.usub_set_time(self._handle, *values))
         self._clock.pending = values
+
+    def _check_prepared(self, found: int | None) -> int:
+        """As `_check`; None where another thread is in the same prepared call."""
+        if found is None:
+            raise self._in_use()
+        return self._check(found)
+
+    def _in_use(self) -> SceneError:
+        return SceneError(
+            f"{self._title}: the driver is in use by another thread; expected one thread at a "
+            "time, so make a driver for each"
+        )
 
     def _check(self, found: int) -> int:
         """Returns a status that is no failure, raises the exception of one that is."""

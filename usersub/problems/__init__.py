@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -15,7 +15,7 @@ from usersub.problems.problem import KEYS, Outcome, Problem
 if TYPE_CHECKING:
     from usersub.routine.routine import Routine
 
-__all__ = ["KEYS", "PROBLEMS", "Case", "Outcome", "Problem", "demo_cases", "run"]
+__all__ = ["KEYS", "PROBLEMS", "Case", "Outcome", "Problem", "all_cases", "demo_cases", "run"]
 
 #: The problems by name.
 PROBLEMS: dict[str, Problem] = {p.PROBLEM.name: p.PROBLEM for p in (p1, p2, p3, p4)}
@@ -75,7 +75,7 @@ def run(
     return problem.run(routine, law=law, **options)  # type: ignore[arg-type]
 
 
-def _methods(problem: Problem, interface: str, quick: bool) -> Iterator[str]:
+def _demo_methods(problem: Problem, interface: str, quick: bool) -> Iterator[str]:
     """Methods of the demo: where a refined one reaches rounding, the plain one is left out."""
     for method in problem.methods[interface]:
         refined = {"P1": (), "P2": ("rigid", "implicit")}.get(problem.name, ())
@@ -85,18 +85,27 @@ def _methods(problem: Problem, interface: str, quick: bool) -> Iterator[str]:
             yield method
 
 
+def _cases(methods: Callable[[Problem, str], Iterable[str]]) -> list[Case]:
+    return [
+        Case(problem.name, law, interface, language, precision, method)
+        for problem in PROBLEMS.values()
+        for law in problem.laws
+        for interface in problem.interfaces
+        for method in methods(problem, interface)
+        for language in laws.LANGUAGES
+        for precision in (("double", "single") if interface.startswith("v") else ("double",))
+    ]
+
+
 def demo_cases(quick: bool = False) -> list[Case]:
     """Every problem through every interface, language and precision, in the order of printing.
 
     Args:
         quick: fewer finite-element runs.
     """
-    return [
-        Case(problem.name, law, interface, language, precision, method)
-        for problem in PROBLEMS.values()
-        for law in problem.laws
-        for interface in problem.interfaces
-        for method in _methods(problem, interface, quick)
-        for language in laws.LANGUAGES
-        for precision in (("double", "single") if interface.startswith("v") else ("double",))
-    ]
+    return _cases(lambda problem, interface: _demo_methods(problem, interface, quick))
+
+
+def all_cases() -> list[Case]:
+    """The demo's cases and those that it leaves out: by every method."""
+    return _cases(lambda problem, interface: problem.methods[interface])

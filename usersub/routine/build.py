@@ -14,7 +14,7 @@ from usersub.errors import CompileError, LoadError
 from usersub.routine import cache, compilers, debuginfo, objects
 
 #: Version of what is stored of a build; part of every key.
-RECORD = "8"
+RECORD = "9"
 _UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )([^'`\s]+)")
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dis
 import hashlib
 import linecache
 import os
@@ -11,6 +12,7 @@ import sys
 import textwrap
 from functools import cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 from usersub import abi
@@ -25,10 +27,13 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _PLACE = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _NOISE = ("Failed in ", "During:", "<source ", "Enable ", "For more ")
 _OPTIONS: dict[str, Any] = {
-    "error_model": "numpy",
+    "boundscheck": True,  # an index beyond its array raises, and never meets foreign memory
     "no_cpython_wrapper": True,
     "no_cfunc_wrapper": True,
 }
+
+#: Operations that give zero, in place of an error, under numba's error model "numpy".
+_WHOLE_DIVISIONS = ("//", "//=", "%", "%=")
 
 #: Longest quotation of numba's words in a message.
 _WORDS = 600
@@ -47,7 +52,7 @@ def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK)
     )
     law = declaration.law
     if law is declaration.function:
-        law = numba.njit(**_OPTIONS)(law)
+        law = numba.njit(**{**_OPTIONS, "error_model": _error_model(law)})(law)
     file = _cached_source(declaration, source)
     signature = _signature(declaration.interface, style)
     if file is not None:
@@ -62,6 +67,18 @@ def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK)
         return Entry(*_code(_adapter(source, None, law), signature, style, cached=False))
     except Exception as error:
         raise _compile_error(declaration, precision, law, error) from error
+
+
+def _error_model(function: FunctionType) -> str:
+    """ "python" where integers may be divided: `//` and `%` by zero raise then, as uncompiled.
+
+    Elsewhere "numpy": a real division by zero gives infinity, which the driver refuses as a result.
+    """
+    whole = any(
+        step.argrepr in _WHOLE_DIVISIONS if step.opname == "BINARY_OP" else step.argval == "divmod"
+        for step in dis.get_instructions(function)
+    )
+    return "python" if whole else "numpy"
 
 
 def _code(function: Any, signature: tuple, style: int, cached: bool) -> tuple[int, int, Any]:

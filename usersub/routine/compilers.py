@@ -127,6 +127,11 @@ def run(command: Sequence[str], folder: Path | None = None) -> Outcome:
 _WORDS = re.compile(r"^(?P<where>[^\s:][^:]*:\d+(?::\d+)?): *(?P<what>(?:fatal )?error: .*)$", re.I)
 
 
+def has_no_place(text: str) -> bool:
+    """Whether no line of the compiler's words says where."""
+    return not any(map(_WORDS.match, text.splitlines()))
+
+
 def refusal(compiler: Compiler, source: Path, outcome: Outcome) -> CompileError:
     """The error of a failed compilation: places and the compiler's words, five at most."""
     words: list[str] = []

@@ -90,6 +90,12 @@ def declare(name: str, law: Callable, generation: str | None = None) -> Declarat
             )
         seen[position] = parameter
     _check_assignments(function, face, positions, where)
+    if all(face.args[position].intent == "read" for position in positions):
+        writable = ", ".join(a.modern for a in face.args if a.intent != "read")
+        raise AbiError(
+            f"{where} names nothing that it can write and would have no effect; expected at least "
+            f"one of {writable}"
+        )
     return Declaration(face, function, law, positions, origin_of(function.__code__))
 
 

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from usersub.errors import CompileError
 from usersub.routine import (
     build,
     cache,
@@ -73,7 +74,7 @@ def _compile(
             compiler, prepared, other_form, precision, places, folder
         )
         if outcome.code:
-            raise compilers.refusal(compiler, source, outcome)
+            raise _refusal(compiler, source, prepared, outcome)
         command = [*compiler.command, *chosen, *places]
         part = folder / "main.o"
         contents = objects.read(part)
@@ -102,6 +103,18 @@ def _compile(
         )
         build.remember(result)
         return result
+
+
+def _refusal(
+    compiler: compilers.Compiler, source: Path, prepared: Prepared, outcome: compilers.Outcome
+) -> CompileError:
+    """The compiler's words, with the file that the user knows."""
+    text = outcome.text.replace(prepared.main, source.name)
+    if "Unexpected end of file" in text and compilers.has_no_place(text):
+        return CompileError(
+            f"{compiler.name} refused {source.name}: the file ends before the END of its last unit"
+        )
+    return compilers.refusal(compiler, source, compilers.Outcome(outcome.code, text))
 
 
 def _units(

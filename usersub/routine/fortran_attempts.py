@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from usersub.routine import compilers, fortran_repairs
+from usersub.routine import compilers, fortran_mending
 from usersub.routine.fortran_source import Prepared
 
 _FLAGS = (
@@ -24,7 +24,7 @@ _VENDOR = ("-fdec", "-fallow-invalid-boz", "-fdollar-ok")
 #: is run in one thread like any other with static data.
 _LARGE_ARRAYS_STATIC = "-fmax-stack-var-size=1000000"
 #: Rounds of mending; each may bring to light what the compiler had not come to.
-_ROUNDS = 3
+_ROUNDS = 5
 
 
 
@@ -83,8 +83,10 @@ def _of_one_form(
         outcome = attempt(prepared, chosen)
     found = prepared
     for _ in range(_ROUNDS):
-        mended = fortran_repairs.logical_comparisons(found.files, outcome.text)
-        if not outcome.code or mended is None:
+        if not outcome.code:
+            break
+        mended = fortran_mending.mended(found.files, outcome.text, found.free)
+        if mended is None:
             break
         found = Prepared(mended, found.main, found.free)
         outcome = attempt(found, chosen)

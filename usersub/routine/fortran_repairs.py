@@ -10,15 +10,12 @@ import re
 
 from usersub.routine.fortran_text import Unit, owner
 
+#: Modules of another compiler whose functions (SYSTEM, SLEEP, RAND ...) gfortran knows by itself.
+_VENDOR_MODULES = ("ifport", "ifposix", "ifcore", "dfport", "dflib")
+_USE_LINE = re.compile(rf"^(\s*\d*\s*)use\s*(?:{'|'.join(_VENDOR_MODULES)})\s*(?:,[^;]*)?$", re.I)
 _USE = re.compile(r"^use(?:,(?:non_)?intrinsic)?(?:::)?([a-z]\w*)")
 _NO_TYPING = re.compile(r"implicit\s+none(?:\s*\([\w\s,]*\))?", re.I)
 _OWN_TYPING = re.compile(r"^implicit(?:real|doubleprecision)\S*\(a-h,o-z\)$")
-_LOGICALS = re.compile(
-    r"^(?P<file>[^\s:][^:]*):(?P<line>\d+):(?P<column>\d+): Error: Logicals at \(1\) must be "
-    r"compared with (?P<right>\.\w+\.) instead of (?P<wrong>\S+)$",
-    re.M,
-)
-_MARKER = re.compile(r'^# (\d+) "([^"]*)"$')
 
 
 def quiet_comment(line: str) -> str:
@@ -79,6 +76,18 @@ def modules_first(found: list[Unit], count: int) -> list[int] | None:
     return [*moved, *sorted(set(range(count)) - set(moved))]
 
 
+def without_vendor_modules(lines: list[str], found: list[Unit]) -> None:
+    """Blanks `USE IFPORT` and its like in `lines`, unless the file has a module of that name."""
+    own = {unit.name for unit in found if unit.kind == "module"}
+    for unit in found:
+        for statement in unit.statements:
+            name = _USE.match(statement.code)
+            if name and name[1] in _VENDOR_MODULES and name[1] not in own:
+                index = statement.line - 1
+                if index == statement.last and _USE_LINE.match(lines[index].partition("!")[0]):
+                    lines[index] = ""
+
+
 def without_double_typing(lines: list[str], found: list[Unit], includes: list[int]) -> None:
     """Blanks IMPLICIT NONE, and a second rule for all reals, in units with an include file that
     sets the typing rule; gfortran takes one rule only.
@@ -97,46 +106,3 @@ def without_double_typing(lines: list[str], found: list[Unit], includes: list[in
                 lines[index] = _NO_TYPING.sub("", lines[index])
             elif _OWN_TYPING.match(statement.code) and index == statement.last:
                 lines[index] = ""
-
-
-def logical_comparisons(files: dict[str, bytes], words: str) -> dict[str, bytes] | None:
-    """The files with `.eq.` between logicals as `.eqv.`, where gfortran's words say so; None if
-    they do not."""
-    faults = [found.groupdict() for found in _LOGICALS.finditer(words)]
-    if not faults:
-        return None
-    mended = dict(files)
-    for name, data in files.items():
-        lines = data.decode("latin-1").split("\n")
-        places = _places(lines)
-        for fault in faults:
-            start = places.get((fault["file"], int(fault["line"])))
-            if start is not None:
-                _mend(lines, start, int(fault["column"]) - 1, fault["wrong"], fault["right"])
-        mended[name] = "\n".join(lines).encode("latin-1")
-    return mended
-
-
-def _places(lines: list[str]) -> dict[tuple[str, int], int]:
-    """Index of each line by the file and number that its markers give it."""
-    places: dict[tuple[str, int], int] = {}
-    file, number = "", 0
-    for index, line in enumerate(lines):
-        marker = _MARKER.match(line)
-        if marker:
-            file, number = marker[2], int(marker[1]) - 1
-        else:
-            number += 1
-            places[file, number] = index
-    return places
-
-
-def _mend(lines: list[str], start: int, column: int, wrong: str, right: str) -> None:
-    """Replaces the first operator at or behind a place, in its line or the next ones."""
-    operator = re.compile(re.escape(wrong).replace(r"\.", r"\s*\.\s*", 1), re.I)
-    for index in range(start, min(start + 20, len(lines))):
-        found = operator.search(lines[index], column if index == start else 0)
-        if found:
-            line = lines[index]
-            lines[index] = line[: found.start()] + right + line[found.end() :]
-            return

@@ -127,6 +127,7 @@ class _Copier:
         shown = re.sub(r"[^\w.,;+()' -]", "_", name, flags=re.ASCII)
         found = fortran_text.units("\n".join(lines), self.free, name)
         added = self._added(found, typing)
+        fortran_repairs.without_vendor_modules(lines, found)
         fortran_repairs.without_double_typing(lines, found, typing)
         order = fortran_repairs.modules_first(found, len(lines)) or range(len(lines))
         made, expected = [], -1
