@@ -2,6 +2,7 @@
 /* Libraries that were built without us (no --wrap, not linked with the utility routines): their
  * calls of exit, STOP and the like, and of utility routines that nothing else defines, are pointed
  * to ours after loading, in the table of addresses through which a shared library calls others.
+ * Calls of what exists nowhere go to a function that says so.
  * Only that library's own calls change: those of its dependencies, as of the Fortran input and
  * output library, do not. ELF on x86-64 and aarch64; elsewhere nothing is redirected. */
 #include "redirect.h"
@@ -9,6 +10,8 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "missing.h"
 
 /* NULL if it cannot be found. Never closed: it is this library. */
 static void *own_handle(Dl_info *own) {
@@ -104,14 +107,27 @@ static int protect(const image *library, int access) {
   return size == 0 || mprotect((void *)library->closed_low, size, access) == 0;
 }
 
+/* RTLD_DEFAULT would also look into libraries that are linked with this one. */
+static int is_nowhere(const image *library, const char *name) {
+  void *program = dlopen(NULL, RTLD_LAZY);
+  if (program == NULL)
+    return 0;
+  int nowhere = dlsym(library->handle, name) == NULL && dlsym(program, name) == NULL;
+  dlclose(program);
+  return nowhere;
+}
+
 /* Our function for a symbol that the library does not define itself; NULL to leave it alone. */
-static void *replacement(const image *library, void *own, const void *own_base, const char *name) {
+static void *replacement(const image *library, void *own, const void *own_base, const char *name,
+                         int call) {
   char wrapped[256];
   Dl_info found;
   snprintf(wrapped, sizeof wrapped, "__wrap_%s", name);
   void *ours = dlsym(own, wrapped);
   if (ours == NULL && dlsym(library->handle, name) == NULL)
     ours = dlsym(own, name);
+  if (ours == NULL && call && is_nowhere(library, name))
+    return usub_missing_slot(name);
   if (ours == NULL || dladdr(ours, &found) == 0 || found.dli_fbase != own_base)
     return NULL;
   return ours;
@@ -126,7 +142,9 @@ static int32_t redirect(const image *library, void *own, const void *own_base) {
       const ElfW(Sym) *symbol = &library->symbols[ELF64_R_SYM(entry->r_info)];
       if ((kind != CALL_SLOT && kind != DATA_SLOT) || symbol->st_shndx != SHN_UNDEF)
         continue;
-      void *ours = replacement(library, own, own_base, library->names + symbol->st_name);
+      const char *name = library->names + symbol->st_name;
+      int call = kind == CALL_SLOT && ELF64_ST_BIND(symbol->st_info) != STB_WEAK;
+      void *ours = replacement(library, own, own_base, name, call);
       if (ours == NULL)
         continue;
       *(void *volatile *)(library->base + entry->r_offset) = ours;

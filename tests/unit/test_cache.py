@@ -131,3 +131,18 @@ def test_threads_that_load_the_same_file_at_once_agree(fresh):
     assert 0 not in places
     assert {p.suffix for p in fresh.iterdir()} == {".so", ".json"}
     assert len(_libraries(fresh)) == 2
+
+
+def test_a_folder_that_cannot_be_written(tmp_path, monkeypatch):
+    """By what the system answers, since the administrator may write everywhere."""
+
+    def refuse(**arguments):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
+    monkeypatch.setattr(cache.tempfile, "mkdtemp", refuse)
+    with (
+        pytest.raises(usersub.LoadError, match=r"cannot be written \(Permission denied\); set US"),
+        cache.build_folder(),
+    ):
+        pass

@@ -126,7 +126,7 @@ def test_standard_interfaces_stay_in_double_precision():
 
 
 def test_generation_that_does_not_exist():
-    with pytest.raises(usersub.AbiError, match="'2030', expected legacy or 2022"):
+    with pytest.raises(usersub.AbiError, match="'2030', expected 'legacy' or '2022'"):
         usersub.load(_FIELD / "fric_coef_throws.cpp", generation="2030")
 
 
@@ -185,11 +185,24 @@ def test_object_file(tmp_path):
 
 
 def test_library_with_symbols_that_nobody_defines(tmp_path):
+    source = _LAW.replace("xplb_exit_", "kelsewhere_")
+    library = _cc(tmp_path, source, "law.so", "-shared", "-fPIC")
+    routine = usersub.load(library).only()
+    with pytest.raises(usersub.LoadError, match=r"law\.so needs kelsewhere_, which neither"):
+        routine.entry()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="calls are redirected on Linux")
+def test_library_that_calls_what_only_the_solver_has(tmp_path):
+    """It runs as long as it does not come to the call, and lives through it."""
     source = _LAW.replace("xplb_exit_", "getvrm_")
     library = _cc(tmp_path, source, "law.so", "-shared", "-fPIC")
     routine = usersub.load(library).only()
-    with pytest.raises(usersub.LoadError, match=r"law\.so needs getvrm_, which neither"):
-        routine.entry()
+    assert info(library).absent == ("GETVRM",)
+    assert _coefficient(routine, 1.0) == 0.125
+    with pytest.raises(usersub.RoutineError, match="GETVRM was called, which usersub does not"):
+        _coefficient(routine, 6.0)
+    assert _coefficient(routine, 1.0) == 0.125
 
 
 def test_file_that_is_no_library(tmp_path):
@@ -241,3 +254,29 @@ def test_our_headers_and_library_are_there():
     base = support()
     assert base.library.is_file() and "exit" in base.wrapped
     assert all(folder.is_dir() for folder in base.include_folders("single"))
+
+
+def test_what_is_no_file_and_no_generation(tmp_path):
+    (tmp_path / "law.f").mkdir()
+    with pytest.raises(usersub.LoadError, match=r"law\.f is a folder, expected a file"):
+        usersub.load(tmp_path / "law.f")
+    with pytest.raises(usersub.AbiError, match="generation is '1999', expected 'legacy' or '2022'"):
+        usersub.load(tmp_path / "law.f", generation="1999")
+
+
+def test_a_message_lists_a_dozen_functions(tmp_path):
+    file = tmp_path / "many.c"
+    file.write_text("".join(f"void part_{k:02d}(void) {{}}\n" for k in range(40)))
+    with pytest.raises(usersub.LoadError, match="PART_11, and 28 more") as raised:
+        usersub.load(file)
+    assert "PART_12" not in str(raised.value)
+
+
+def test_repr_is_short(tmp_path):
+    file = tmp_path / "law.c"
+    file.write_text(
+        "#include <usersub/abi.h>\n"
+        "void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) { fCoef[0] = 0.5; }\n"
+    )
+    shown = repr(usersub.load(file)["vfric_coef"])
+    assert shown == f"<VFRIC_COEF routine 'law.c' (legacy, c) at {file}:2>"

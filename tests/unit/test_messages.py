@@ -158,3 +158,9 @@ def test_stop_inside_of_a_write_leaves_the_unit_usable(tmp_path):
             _call(driver, 9.0)
     _call(driver, 2.0)
     assert [text for text in said if text.strip() not in ("", "p")] == ["p 11.0", "p 12.0"]
+
+
+@pytest.mark.parametrize("wrong", [3, 2.5, b"file", ["file"]])
+def test_a_receiver_that_is_none(wrong):
+    with pytest.raises(usersub.SceneError, match="expected a function of level and text, a path"):
+        usersub.messages_to(wrong)

@@ -30,8 +30,7 @@ def alone(method: Callable) -> Callable:
 
     @functools.wraps(method)
     def call(self: Driver, *arguments: Any, **named: Any) -> Any:
-        if not self._lock.acquire(blocking=False):
-            raise self._in_use()
+        self._enter()
         try:
             return method(self, *arguments, **named)
         finally:
@@ -241,6 +240,11 @@ class Driver:
         if found is None:
             raise self._in_use()
         return self._check(found)
+
+    def _enter(self) -> None:
+        """Takes the driver for this thread; `_lock.release()` gives it back."""
+        if not self._lock.acquire(False):
+            raise self._in_use()
 
     def _in_use(self) -> SceneError:
         return SceneError(

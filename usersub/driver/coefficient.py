@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from usersub.core import lib
-from usersub.driver.base import Driver, alone
+from usersub.driver.base import Driver
 
 
 class CoefficientDriver(Driver):
@@ -16,7 +16,6 @@ class CoefficientDriver(Driver):
     interfaces = ("fric_coef", "vfric_coef")
     _c_call = "usub_evaluate"
 
-    @alone
     def evaluate(
         self,
         *,
@@ -36,10 +35,14 @@ class CoefficientDriver(Driver):
             SceneError: an array is missing or holds a value that is refused.
             RoutineError: the routine failed. The driver's state is as before.
         """
-        if arrays:
-            self.bind(**arrays)
-        if time_increment is not None:
-            self._set_time(step, increment, (time_increment, step_time, total_time))
-        self._finish(lib.usub_evaluate(self._handle))
-        self._clock.accept()
-        return self._result("coefficient")  # type: ignore[return-value]
+        self._enter()
+        try:
+            if arrays:
+                self.bind(**arrays)
+            if time_increment is not None:
+                self._set_time(step, increment, (time_increment, step_time, total_time))
+            self._finish(lib.usub_evaluate(self._handle))
+            self._clock.accept()
+            return self._result("coefficient")  # type: ignore[return-value]
+        finally:
+            self._lock.release()

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from usersub.core import lib
-from usersub.driver.base import Driver, alone
+from usersub.driver.base import Driver
 
 
 class ExplicitResponse(NamedTuple):
@@ -32,7 +32,6 @@ class ExplicitDriver(Driver):
     interfaces = ("vfric", "vfriction", "vfric_coef")
     _c_call = "usub_step"
 
-    @alone
     def step(
         self,
         time_increment: float,
@@ -53,13 +52,19 @@ class ExplicitDriver(Driver):
             SceneError: an array is missing or holds a value that is refused.
             RoutineError: the routine failed. The driver's state is as before.
         """
-        if arrays:
-            self.bind(**arrays)
-        self._set_time(step, increment, (time_increment, step_time, total_time))
-        if friction_work is not None:
-            self._check(lib.usub_set_friction_work(self._handle, float(friction_work)))
-        self._finish(lib.usub_step(self._handle))
-        self._clock.accept()
-        coefficient = self._result("coefficient") if "coefficient" in self.layout.ports else None
-        dissipation = lib.usub_dissipation(self._handle)
-        return ExplicitResponse(self._result("force"), coefficient, dissipation)  # type: ignore[arg-type]
+        self._enter()
+        try:
+            if arrays:
+                self.bind(**arrays)
+            self._set_time(step, increment, (time_increment, step_time, total_time))
+            if friction_work is not None:
+                self._check(lib.usub_set_friction_work(self._handle, float(friction_work)))
+            self._finish(lib.usub_step(self._handle))
+            self._clock.accept()
+            coefficient = (
+                self._result("coefficient") if "coefficient" in self.layout.ports else None
+            )
+            dissipation = lib.usub_dissipation(self._handle)
+            return ExplicitResponse(self._result("force"), coefficient, dissipation)  # type: ignore[arg-type]
+        finally:
+            self._lock.release()

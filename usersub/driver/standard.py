@@ -64,7 +64,6 @@ class StandardDriver(Driver):
         self._set_time(step, increment, (time_increment, step_time, total_time))
         self._check(lib.usub_begin_increment(self._handle))
 
-    @alone
     def iterate(self, **arrays: np.ndarray | None) -> StandardResponse:
         """One Newton iteration for all closed points, after binding `arrays`.
 
@@ -72,11 +71,17 @@ class StandardDriver(Driver):
             SceneError: an array is missing or holds a value that is refused.
             RoutineError: the routine failed. The driver's state is as before.
         """
-        if arrays:
-            self.bind(**arrays)
-        found = self._finish(lib.usub_iterate(self._handle))
-        results: dict[str, Any] = {name: self._result(name) for name in _OUTPUTS}
-        return StandardResponse(**results, pnewdt=lib.usub_pnewdt(self._handle), cut_back=found > 0)
+        self._enter()
+        try:
+            if arrays:
+                self.bind(**arrays)
+            found = self._finish(lib.usub_iterate(self._handle))
+            results: dict[str, Any] = {name: self._result(name) for name in _OUTPUTS}
+            return StandardResponse(
+                **results, pnewdt=lib.usub_pnewdt(self._handle), cut_back=found > 0
+            )
+        finally:
+            self._lock.release()
 
     @alone
     def commit(self) -> None:

@@ -176,7 +176,14 @@ def routine(
     """The routine of a law behind one interface.
 
     Raises:
-        LoadError: unknown law or language, or the interface cannot carry the law.
+        LoadError: unknown law or language, or the interface cannot carry the law or does not exist
+            in this precision.
     """
     law(name).check(interface.lower())
+    precisions = abi.interface(interface).precisions
+    if precision not in precisions:
+        raise LoadError(
+            f"law '{name}' behind {interface.upper()} has no precision '{precision}'; "
+            f"expected {' or '.join(precisions)}"
+        )
     return load(name, language, precision=precision)[interface.lower()]

@@ -44,14 +44,20 @@ def page(measured: Iterable[Measured], studies: Iterable[Study], stamp: str) -> 
 
 
 def stamp() -> str:
-    """Versions that the numbers were made with."""
+    """Versions that the numbers were made with.
+
+    Raises:
+        MissingTool: a compiler is missing.
+    """
     import numba
 
     from usersub import __version__
+    from usersub.routine import compilers
 
     return (
         f"usersub {__version__}, Python {platform.python_version()}, numpy {np.__version__}, "
-        f"numba {numba.__version__}, on {platform.system()} {platform.machine()}"
+        f"numba {numba.__version__}, {compilers.find('c').version}, "
+        f"{compilers.find('fortran').version}, on {platform.system()} {platform.machine()}"
     )
 
 

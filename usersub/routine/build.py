@@ -11,7 +11,7 @@ from typing import Any
 
 from usersub import abi
 from usersub.errors import CompileError, LoadError
-from usersub.routine import cache, compilers, debuginfo, objects
+from usersub.routine import cache, compilers, debuginfo, objects, solver
 
 #: Version of what is stored of a build; part of every key.
 RECORD = "9"
@@ -34,7 +34,7 @@ class Build:
         unused: positions of arguments that are not used, by symbol; no entry: not known.
         shared: variables that outlive a call.
         writes_units: it uses Fortran units.
-        absent: functions that other entries of the file call and that do not exist here.
+        absent: functions that do not exist here; a call of one ends the call of the routine.
         guarded: symbols of block style that turn C++ exceptions into a status, by interface.
         missing: symbols that a prebuilt library needs from others.
     """
@@ -115,7 +115,8 @@ def link(
     """Links `parts` (the object of the source first) with `flags` into `target`.
 
     Functions that do not exist here are an error if one of the interfaces can come to call them;
-    other entries of the file (a UEL, a VUMAT) get a function that says so and ends the call.
+    other entries of the file (a UEL, a VUMAT), and all calls of utility routines that only the
+    commercial solver has, get a function that says so and ends the call.
 
     Returns:
         the names of such functions.
@@ -144,8 +145,8 @@ def link(
 def _refuse_if_reached(source: Path, part: Path, absent: tuple[str, ...]) -> None:
     interfaces = interface_symbols()
     reached = objects.reached(part, interfaces) if objects.is_elf(part) else set(absent)
-    needed = sorted(reached.intersection(absent))
-    other = sorted(set(absent) - set(needed))
+    needed = sorted(name for name in reached.intersection(absent) if not solver.is_utility(name))
+    other = sorted(set(absent) - reached)
     plain = [name for name in other if not name.endswith("_")]
     if needed or plain:
         names = ", ".join(_shown(name) for name in needed or plain)
@@ -158,18 +159,10 @@ def _shown(symbol: str) -> str:
 
 def _stand_ins(compiler: compilers.Compiler, folder: Path, absent: tuple[str, ...]) -> Path:
     """An object with functions that say that they do not exist here, and end the call."""
-    lines = [
-        "extern void stdb_abqerr_(int *, char *, int *, double *, char *, long, long);",
-        "extern void xit_(void);",
-        "static void usub_absent(char *text, long length) {",
-        '  int level = -2, none = 0; double zero = 0; char blank[9] = "        ";',
-        "  stdb_abqerr_(&level, text, &none, &zero, blank, length, 8);",
-        "  xit_();",
-        "}",
+    lines = ["extern void usub_missing_routine(const char *);"]
+    lines += [
+        f'void {symbol}(void) {{ usub_missing_routine("{_shown(symbol)}"); }}' for symbol in absent
     ]
-    for symbol in absent:
-        text = f"{_shown(symbol)} was called, which usersub does not provide"
-        lines.append(f'void {symbol}(void) {{ usub_absent("{text}", {len(text)}); }}')
     source = folder / "usub_absent.c"
     source.write_text("\n".join(lines) + "\n", encoding="ascii")
     made = source.with_suffix(".o")

@@ -79,7 +79,14 @@ def path(stem: str, digest: str, suffix: str) -> Path:
 @contextmanager
 def build_folder() -> Iterator[Path]:
     """A fresh folder inside the cache (so that a move is one rename), removed at the end."""
-    made = Path(tempfile.mkdtemp(prefix="build-", dir=folder()))
+    home = folder()
+    try:
+        made = Path(tempfile.mkdtemp(prefix="build-", dir=home))
+    except OSError as error:
+        raise LoadError(
+            f"the cache folder {home} cannot be written ({error.strerror}); "
+            f"set {VARIABLE} to a folder that can be written"
+        ) from error
     try:
         yield made
     finally:

@@ -101,7 +101,7 @@ def _signature(dwarf, unit, function, symbol: str, fortran: bool) -> Signature:
     parameters = tuple(
         _parameter(die, fortran)
         for die in function.iter_children()
-        if die.tag == "DW_TAG_formal_parameter" and not _value(die, "DW_AT_artificial")
+        if die.tag == "DW_TAG_formal_parameter" and not _is_hidden(die)
     )
     return Signature(
         symbol,
@@ -110,6 +110,12 @@ def _signature(dwarf, unit, function, symbol: str, fortran: bool) -> Signature:
         fortran,
         parameters,
     )
+
+
+def _is_hidden(die) -> bool:
+    """Whether the compiler added the parameter: lengths of texts, with names no Fortran has. An
+    array of assumed shape is marked as artificial too."""
+    return bool(_value(die, "DW_AT_artificial")) and not _text(die, "DW_AT_name")[:1].isalpha()
 
 
 def _file(dwarf, unit, function) -> str:

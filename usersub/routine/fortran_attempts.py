@@ -27,7 +27,6 @@ _LARGE_ARRAYS_STATIC = "-fmax-stack-var-size=1000000"
 _ROUNDS = 5
 
 
-
 def flags(free: bool, precision: str) -> tuple[str, ...]:
     """Flags that decide about the code, for the form of the source and the precision."""
     form = ("-ffree-form", "-ffree-line-length-none")

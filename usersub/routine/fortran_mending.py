@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mending by gfortran's own words: what other compilers take, gfortran refuses, and has one meaning.
+"""Mending by gfortran's own words: what it refuses, others take, and has only one meaning.
 
 Only files that gfortran has refused come here. Line numbers stay those of the file.
 """
@@ -40,7 +40,9 @@ def mended(files: dict[str, bytes], words: str, free: bool) -> dict[str, bytes] 
                     changed |= mend(lines, start, int(fault["column"]) - 1, fault)
     if not changed and not free:
         changed = _cut_cards(list(texts.values()))
-    return {n: "\n".join(lines).encode("latin-1") for n, lines in texts.items()} if changed else None
+    return (
+        {n: "\n".join(lines).encode("latin-1") for n, lines in texts.items()} if changed else None
+    )
 
 
 def _places(lines: list[str]) -> dict[tuple[str, int], int]:
@@ -147,7 +149,8 @@ _MENDS: tuple[tuple[re.Pattern[str], _Mend], ...] = tuple(
     (re.compile(_FAULT + words, re.M), mend)
     for words, mend in (
         (
-            r"Logicals at \(1\) must be compared with (?P<right>\.\w+\.) instead of (?P<wrong>\S+)$",
+            r"Logicals at \(1\) must be compared with (?P<right>\.\w+\.) instead of "
+            r"(?P<wrong>\S+)$",
             _operator,
         ),
         (
@@ -156,6 +159,9 @@ _MENDS: tuple[tuple[re.Pattern[str], _Mend], ...] = tuple(
             _mixed_types,
         ),
         (r"IF clause at \(1\) requires a scalar LOGICAL expression$", _condition),
-        (r"Exit condition of DO WHILE loop at \(1\) must be a scalar LOGICAL expression$", _condition),
+        (
+            r"Exit condition of DO WHILE loop at \(1\) must be a scalar LOGICAL expression$",
+            _condition,
+        ),
     )
 )

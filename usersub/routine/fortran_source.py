@@ -3,9 +3,9 @@
 
 The copy differs from the file in what a user does not see: line ends, byte-order mark, comments
 (the preprocessor stumbles over quotes and `/*` in them), the names of include files (found in any
-case, ours or beside the source), what `fortran_repairs` mends, and `#include <SMAAspUserSubroutines.hdr>`: wherever it stands,
-its declarations go where Fortran allows them, into every unit that calls such a function and does
-not declare it.
+case, ours or beside the source), what `fortran_repairs` mends, and
+`#include <SMAAspUserSubroutines.hdr>`: wherever it stands, its declarations go where Fortran allows
+them, into every unit that calls such a function and does not declare it.
 """
 
 from __future__ import annotations

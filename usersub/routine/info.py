@@ -7,24 +7,12 @@ import os
 from dataclasses import asdict, dataclass
 
 from usersub import abi
+from usersub.routine import solver
 from usersub.routine.build import Build
 from usersub.routine.loading import RoutineFile, load
 from usersub.routine.routine import READS, READS_AND_WRITES, UNUSED, WRITES, Routine
 
 _DOES = {UNUSED: "unused", READS: "reads", WRITES: "writes", READS_AND_WRITES: "reads and writes"}
-
-#: User subroutines of the commercial solver that may stand in the same file.
-_ENTRIES = frozenset(
-    """
-    uel uelmat uexternaldb vexternaldb umat umatht uhyper uhard umullins creep usdfld sdvini
-    sigini uvarm urdfil ufield vufield uamp vuamp dload utracload disp film dflux hetval uinter
-    gapcon gapelectr umeshmotion uexpan utemp upress udecurrent udemagnetic flow dflow upsd uwave
-    urcoef uel_th voids mpc rsurfu harden hardini vumat vumatht vuhard vusdfld vuel vuinter
-    vuinteraction vuexpan vuequivalent vufluidexch vdisp vdload vdflux vfabric vuviscosity vwave
-    vumullins uconstraint usuperelas uanisohyper_inv uanisohyper_strain ucreepnetwork ucorr
-    uthermal
-    """.split()
-)
 
 
 @dataclass(frozen=True)
@@ -79,7 +67,7 @@ class Info:
         entries: other user subroutines of the file (UEL, VUMAT ...), upper case.
         functions: further functions of the file, upper case.
         shared_state: variables that outlive a call (COMMON, SAVE, static).
-        absent: functions that only other entries call and that do not exist here.
+        absent: functions that do not exist here; a call of one ends the call of the routine.
         writes_units: it writes to Fortran units.
     """
 
@@ -126,8 +114,8 @@ def info(thing: Routine | RoutineFile | str | os.PathLike[str], precision: str =
         flags=build.flags,
         library=str(build.library),
         routines=tuple(_routine(r, build) for r in file.values()),
-        entries=tuple(n.upper() for n in others if n.lower() in _ENTRIES),
-        functions=tuple(_readable(n) for n in others if n.lower() not in _ENTRIES),
+        entries=tuple(n.upper() for n in others if n.lower() in solver.ENTRIES),
+        functions=tuple(_readable(n) for n in others if n.lower() not in solver.ENTRIES),
         shared_state=build.shared,
         absent=tuple(n.removesuffix("_").upper() for n in build.absent),
         writes_units=build.writes_units,

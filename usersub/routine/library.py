@@ -6,11 +6,12 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import sys
 from pathlib import Path
 
 from usersub import abi
 from usersub.errors import AbiError, LoadError
-from usersub.routine import build, cache, compilers, debuginfo, objects
+from usersub.routine import build, cache, compilers, debuginfo, objects, solver
 from usersub.routine.build import Build
 from usersub.routine.support import support
 
@@ -32,7 +33,7 @@ def examine(path: Path, precision: str) -> Build:
         raise LoadError(f"the library {path} is not there")
     contents = objects.read(path)
     target = path
-    absent: tuple[str, ...] = ()
+    absent = tuple(name for name in contents.missing if solver.is_utility(name))
     if path.suffix.lower() in OBJECT_SUFFIXES:
         target, absent = _linked(path, contents.missing)
     return Build(
@@ -107,7 +108,11 @@ def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
     nowhere = [
         name
         for name in missing
-        if name not in offered and not address(loaded, name) and not address(process, name)
+        if name not in offered
+        and not address(loaded, name)
+        and not address(process, name)
+        # The core lets such calls end with a message, where it can redirect calls.
+        and not (sys.platform == "linux" and solver.is_utility(name))
     ]
     if nowhere:
         raise LoadError(_needs(path, nowhere))

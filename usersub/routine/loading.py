@@ -24,6 +24,10 @@ _LANGUAGES = {
 }
 
 
+#: Functions that a message lists, at most.
+_LISTED = 12
+
+
 class RoutineFile(Mapping[str, Routine]):
     """The routines of one file by interface name ("vfric", any case).
 
@@ -119,6 +123,12 @@ def load(
     file = Path(path).expanduser().absolute()
     if precision not in ("double", "single"):
         raise AbiError(f"precision is '{precision}', expected 'double' or 'single'")
+    if generation not in (None, abi.LEGACY, abi.RELEASE_2022):
+        raise AbiError(
+            f"generation is {generation!r}, expected '{abi.LEGACY}' or '{abi.RELEASE_2022}'"
+        )
+    if file.is_dir():
+        raise LoadError(f"{file} is a folder, expected a file")
     if not file.is_file():
         raise LoadError(f"there is no file {file}")
     language = _language(file)
@@ -127,6 +137,8 @@ def load(
 
         found = load_python(file)
         return RoutineFile(file, language, precision, _chosen(file, found, interface))
+    if language != "library":
+        _check_text(file)
     code = Code(file, language, precision)
     build = code.build(precision)
     if not build.interfaces:
@@ -145,6 +157,20 @@ def _language(file: Path) -> str:
             f"{file.name} has the suffix '{file.suffix}', expected one of {', '.join(_LANGUAGES)}"
         )
     return _LANGUAGES[suffix]
+
+
+def _check_text(file: Path) -> None:
+    """Refuses what no compiler reads as text, in a sentence instead of a hundred of the compiler."""
+    try:
+        with file.open("rb") as opened:
+            head = opened.read(1 << 16)
+    except OSError as error:
+        raise LoadError(f"{file} cannot be read: {error.strerror}") from error
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise LoadError(f"{file.name} is in UTF-16, which compilers do not read; save it as UTF-8")
+    if b"\0" in head:
+        line = head[: head.index(b"\0")].count(b"\n") + 1
+        raise LoadError(f"{file.name} is not a text file: line {line} has a zero byte")
 
 
 def _chosen(file: Path, found: dict, interface: str | None) -> dict:
@@ -170,7 +196,10 @@ def _nothing(build: Build) -> str:
             f"FOR_NAME({_nearly(near[0])},{_nearly(near[0]).upper()}) of omi_for_c.h, "
             'in C++ behind extern "C"'
         )
-    others = ", ".join(f.removesuffix("_").upper() for f in build.functions) or "nothing"
+    shown = [f.removesuffix("_").upper() for f in build.functions[:_LISTED]]
+    if len(build.functions) > _LISTED:
+        shown.append(f"and {len(build.functions) - _LISTED} more")
+    others = ", ".join(shown) or "nothing"
     return (
         f"{build.source.name} has none of the interfaces {names}; the functions that it defines: "
         f"{others}"

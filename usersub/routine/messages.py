@@ -17,6 +17,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from usersub.errors import SceneError
 from usersub.routine import units
 
 #: Gets a level and a text: 1 information, -1 warning, -2 error, -3 fatal, 0 a line on a unit.
@@ -48,6 +49,10 @@ def messages_to(receiver: Receiver | str | os.PathLike | None = _to_stderr) -> N
             drop everything. Without an argument: lines on `sys.stderr`, as at the start.
     """
     global _receiver
+    if not (receiver is None or callable(receiver) or isinstance(receiver, str | os.PathLike)):
+        raise SceneError(
+            f"messages_to got {receiver!r}; expected a function of level and text, a path or None"
+        )
     after_call()
     if isinstance(receiver, str | os.PathLike):
         receiver = _appender(Path(receiver))

@@ -54,6 +54,12 @@ class Routine:
     replay: Callable[[str], Entry] | None = field(default=None, repr=False)
     after_call: Callable[[], None] | None = field(default=None, compare=False, repr=False)
 
+    def __repr__(self) -> str:
+        name, place = self.interface.name.upper(), f" at {self.origin}" if self.origin else ""
+        return (
+            f"<{name} routine '{self.name}' ({self.interface.generation}, {self.language}){place}>"
+        )
+
     def entry(self, precision: str = "double") -> Entry:
         """The entry for `precision`, compiled at the first request."""
         return self.make_entry(precision)

@@ -69,6 +69,8 @@ static void judge(const common *c, outcome *o) {
   if (!o->armed || o->iostat == 0 || (result && c->flags & 2 << result)) return;
   for (int i = LONGEST; i > 0 && (o->message[i - 1] == ' ' || !o->message[i - 1]); i--)
     o->message[i - 1] = 0;
+  for (char *at = o->message; *at; at++)
+    if (*at == '\\n') *at = ' ';
   __wrap__gfortran_runtime_error_at("", "%s (%s, line %d)", o->message, c->file, c->line);
 }
 static void end_above(const char *here) {

@@ -182,7 +182,14 @@ _ELSEWHERE = {
 
 
 #: Kinds of the options that several problems have.
-_OPTIONS = {"method": "text", "points": "int", "steps": "int", "history": "truth"}
+_OPTIONS = {
+    "method": "text",
+    "points": "int",
+    "steps": "int",
+    "table_points": "int",
+    "step_share": "real",
+    "history": "truth",
+}
 
 
 def _only_problem(top: Table, props: list | None, settings: dict[str, Any]) -> None:
@@ -204,7 +211,7 @@ def _problem(table: Table) -> tuple[str, dict[str, Any]]:
         if table.has(key):
             raise table.error(f"{key} = {show(table.data[key])} belongs {place}")
     options = {k: table.take(k, _OPTIONS.get(k, "plain")) for k in table.data if k != "name"}
-    for key in ("points", "steps"):
+    for key in ("points", "steps", "table_points"):
         if options.get(key, 1) < 1:
             raise table.error(f"{key} = {options[key]} must be at least 1")
     return name, options

@@ -240,6 +240,10 @@ int32_t usub_empty(usub_driver *driver);
 
 /* end::cdef[] */
 
+/** For stand-ins of functions that a routine calls and that exist in the commercial solver only:
+ * leaves the routine with USUB_ROUTINE_STOPPED and a message with `name`. Does not return. */
+void usub_missing_routine(const char *name);
+
 #if defined(__GNUC__)
 #pragma GCC visibility pop
 #endif
