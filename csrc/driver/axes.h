@@ -5,7 +5,7 @@
  * All functions are free of overflow and underflow for slips from the smallest denormal up to
  * 1e300 (1e37 in single): a range check on the sum of squares keeps the usual case at one square
  * root and one division, everything else is repeated after scaling by a power of two.
- * Normals have to be of unit length to rounding. NaN in gives NaN out.
+ * Normals have to be of unit length to rounding. NaN or infinity in gives NaN out.
  *
  *   R usub_norm2_{d,f}(x, y), usub_norm3_{d,f}(x, y, z)    length of a vector
  *   R usub_tangential2_{d,f}(slip, n, v)                   part of slip in the plane of n, and its
@@ -154,6 +154,10 @@ static inline void F(usub_axes2)(const R slip[2], const R n[2], R t1[2], R *leng
     x = M(ldexp)(x, -e);
     y = M(ldexp)(y, -e);
     whole = x * x + y * y;
+    if (!isfinite(whole)) { /* infinity would count as rounding of itself below */
+      *length = t1[0] = t1[1] = whole - whole;
+      return;
+    }
   }
   const R along = x * n[1] - y * n[0];
   if (along * along <= noise * whole) {

@@ -54,7 +54,7 @@ int32_t usub_set_time(usub_driver *driver, int32_t step, int32_t increment, doub
     clock->time[i] = times[i];
     clock->time_f[i] = (float)times[i];
   }
-  driver->timed = 1;
+  driver->clock.timed = 1;
   return USUB_OK;
 }
 

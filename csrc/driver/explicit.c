@@ -68,7 +68,7 @@ int32_t usub_step(usub_driver *driver) {
   if (driver->kind != USUB_KIND_OF_EXPLICIT)
     return usub_fail(driver, USUB_WRONG_ORDER, "usub_step: %s is not in an explicit driver",
                      driver->title);
-  if (!driver->timed)
+  if (!driver->clock.timed)
     return usub_fail(driver, USUB_WRONG_ORDER, "%s: usub_set_time has to come before usub_step",
                      driver->title);
   int32_t status = usub_prepare(driver);

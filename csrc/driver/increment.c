@@ -22,7 +22,7 @@ int32_t usub_begin_increment(usub_driver *driver) {
   const int32_t status = check_order(driver, "usub_begin_increment", 0);
   if (status)
     return status;
-  if (!driver->timed)
+  if (!driver->clock.timed)
     return usub_fail(driver, USUB_WRONG_ORDER,
                      "%s: usub_set_time has to come before usub_begin_increment", driver->title);
   driver->last.open = 1;

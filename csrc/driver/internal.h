@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "../runtime/exception.h"
 #include "../runtime/guard.h"
 #include "../runtime/pool.h"
 #include "tables.h"
@@ -146,6 +147,7 @@ typedef struct usub_clock {
   double time[4];   /* step time, total time, increment, friction work */
   float time_f[4];
   int32_t iteration;
+  int32_t timed; /* usub_set_time was called */
 } usub_clock;
 
 /** Integers that arguments point at. */
@@ -180,7 +182,6 @@ struct usub_driver {
   int32_t threads;
   int32_t prepared; /* the plan fits the set of bound arrays */
   int32_t aimed;    /* the fixed argument pointers are set */
-  int32_t timed;    /* usub_set_time was called */
   usub_slot slots[USUB_MAX_SLOTS];
   int32_t slot_count;
   usub_memory memory; /* of the slots */

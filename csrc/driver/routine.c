@@ -8,43 +8,36 @@
 #include "../runtime/redirect.h"
 #include "internal.h"
 
-/* Checks names and makes an empty routine; NULL with a reason in `error`. */
-static usub_routine *routine_new(const char *interface, const char *generation,
-                                 const char *precision, usub_error *error) {
-  if (error)
-    error->message[0] = 0;
+/* Checks names and makes an empty routine. */
+static int32_t routine_new(const char *interface, const char *generation, const char *precision,
+                           usub_routine **routine, usub_error *error) {
   const usub_interface *face = interface ? usub_interface_find(interface, generation) : NULL;
-  if (!face) {
-    const int known = interface && usub_interface_find(interface, NULL);
-    usub_error_set(error, USUB_BAD_ARGUMENT,
-                   known ? "%s has no generation '%s'; FRIC_COEF has 'legacy' and '2022', the "
-                           "other interfaces 'legacy'"
-                         : "unknown interface '%s'%.0s; expected fric, fric_coef, vfric, vfriction "
-                           "or vfric_coef",
-                   interface ? interface : "(null)", generation ? generation : "(null)");
-    return NULL;
-  }
+  if (!face && interface && usub_interface_find(interface, NULL))
+    return usub_error_set(error, USUB_BAD_ARGUMENT,
+                          "%s has no generation '%s'; FRIC_COEF has 'legacy' and '2022', the other "
+                          "interfaces 'legacy'",
+                          interface, generation);
+  if (!face)
+    return usub_error_set(error, USUB_BAD_ARGUMENT,
+                          "unknown interface '%s'; expected fric, fric_coef, vfric, vfriction or "
+                          "vfric_coef",
+                          interface ? interface : "(null)");
   const int single = precision && strcmp(precision, "single") == 0;
-  if (!single && !(precision && strcmp(precision, "double") == 0)) {
-    usub_error_set(error, USUB_BAD_ARGUMENT, "precision '%s'; expected 'double' or 'single'",
-                   precision ? precision : "(null)");
-    return NULL;
-  }
-  if (single && face->standard) {
-    usub_error_set(error, USUB_NOT_SUPPORTED,
-                   "%s exists in double precision only; precision 'single' was asked for",
-                   interface);
-    return NULL;
-  }
-  usub_routine *routine = calloc(1, sizeof *routine);
-  if (!routine) {
-    usub_error_set(error, USUB_NO_MEMORY, "no memory for a routine");
-    return NULL;
-  }
-  routine->face = face;
-  routine->generation_known = generation && generation[0];
-  routine->single = single;
-  return routine;
+  if (!single && !(precision && strcmp(precision, "double") == 0))
+    return usub_error_set(error, USUB_BAD_ARGUMENT, "precision '%s'; expected 'double' or 'single'",
+                          precision ? precision : "(null)");
+  if (single && face->standard)
+    return usub_error_set(error, USUB_NOT_SUPPORTED,
+                          "%s exists in double precision only; precision 'single' was asked for",
+                          interface);
+  usub_routine *made = calloc(1, sizeof *made);
+  if (!made)
+    return usub_error_set(error, USUB_NO_MEMORY, "no memory for a routine");
+  made->face = face;
+  made->generation_known = generation && generation[0];
+  made->single = single;
+  *routine = made;
+  return USUB_OK;
 }
 
 int32_t usub_routine_open(const char *library, const char *interface, const char *generation,
@@ -53,9 +46,10 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
     return usub_error_set(error, USUB_BAD_ARGUMENT,
                           "routine: expected a place for the handle, got NULL");
   *routine = NULL;
-  usub_routine *made = routine_new(interface, generation, precision, error);
-  if (!made)
-    return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  usub_routine *made = NULL;
+  const int32_t status = routine_new(interface, generation, precision, &made, error);
+  if (status)
+    return status;
   usub_publish_utilities();
   /* Lazily: other routines of the file may call what only the commercial solver has. */
   void *handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
@@ -102,9 +96,10 @@ int32_t usub_routine_create(const char *interface, const char *generation, const
   if (style != USUB_STYLE_FULL && style != USUB_STYLE_BLOCK)
     return usub_error_set(error, USUB_BAD_ARGUMENT,
                           "style %d; expected USUB_STYLE_FULL (0) or USUB_STYLE_BLOCK (1)", style);
-  usub_routine *made = routine_new(interface, generation, precision, error);
-  if (!made)
-    return error && error->status ? error->status : USUB_BAD_ARGUMENT;
+  usub_routine *made = NULL;
+  const int32_t status = routine_new(interface, generation, precision, &made, error);
+  if (status)
+    return status;
   made->style = style;
   made->entry = entry;
   *routine = made;

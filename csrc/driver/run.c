@@ -45,7 +45,9 @@ int32_t usub_call_routine(const usub_driver *driver, const usub_call *call) {
   return USUB_OK;
 }
 
-int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]) {
+__attribute__((noinline)) int32_t usub_call_guarded(const usub_driver *driver, usub_call *call,
+                                                    char reason[256]) {
+  USUB_ENDS_EXCEPTIONS;
   usub_guard guard;
   volatile int32_t status = USUB_OK;
   usub_guard_push(&guard);

@@ -176,7 +176,9 @@ int32_t usub_check_trial_state(usub_driver *driver, usub_call *call, int32_t ind
 }
 
 /* One guard for all points of the block: arming it costs as much as a cheap routine. */
-int32_t usub_standard_block(usub_driver *driver, usub_call *call, int32_t index) {
+__attribute__((noinline)) int32_t usub_standard_block(usub_driver *driver, usub_call *call,
+                                                      int32_t index) {
+  USUB_ENDS_EXCEPTIONS;
   const usub_point_arrays at = usub_point_arrays_of(driver);
   const int32_t first = index * driver->block, rest = driver->points - first;
   const int32_t last = first + (rest < driver->block ? rest : driver->block);

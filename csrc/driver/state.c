@@ -70,7 +70,7 @@ static state_header header_of(const usub_driver *driver) {
       .has_force = driver->last_force != NULL,
       .step = driver->accepted.flags[0],
       .increment = driver->accepted.flags[1],
-      .timed = driver->timed,
+      .timed = driver->accepted.timed,
       .work = driver->accepted.time[3],
       .dissipation = driver->dissipation,
   };
@@ -211,7 +211,7 @@ int32_t usub_state_load(usub_driver *driver, const void *buffer, size_t size) {
   }
   take_payload(driver, payload, saved.has_force);
   driver->dissipation = saved.dissipation;
-  driver->timed = saved.timed;
+  driver->clock.timed = saved.timed;
   driver->accepted = driver->clock;
   return USUB_OK;
 }

@@ -602,6 +602,8 @@ _DIALECT = {
     "labels and marks": "     0FC(1) = 0\n     !  + PROPS(1)\n\n* comment\n\n     &  + 0.D0\n",
     "directives of OpenMP": "!$OMP PARALLEL DO\n      DO K = 1, NB\n      FC(K) = PROPS(1)\n"
     "      END DO\n!$    FC(1) = 7\n",
+    "functions of the other precision": "      REAL*4 Y\n      Y = 4\n"
+    "      FC(1) = PROPS(1)*DSQRT(Y)/2 + ALOG(P(1)/P(1)) + DABS(-DTANH(Y - 4))\n",
     "two statements": "      X = 1; Y = 2; FC(1) = PROPS(1)*X*Y/2\n",
 }
 
@@ -643,6 +645,32 @@ def test_heads(old, new, tmp_path):
     source = tmp_path / "law.for"
     source.write_text(_in_vfric_coef("      FC(1) = PROPS(1)\n").replace(old, new, 1))
     _check_quarter(source)
+
+
+def test_helper_with_the_name_of_an_interface(tmp_path):
+    source = tmp_path / "law.for"
+    source.write_text(
+        _in_vfric_coef("      FC(1) = PROPS(1)\n")
+        + "      SUBROUTINE FRIC(X)\n      X = 1\n      END\n"
+    )
+    with pytest.raises(usersub.AbiError, match=r"FRIC has 1 arg.*\(interface='vfric_coef' loads"):
+        usersub.load(source)
+    assert list(usersub.load(source, interface="vfric_coef")) == ["vfric_coef"]
+
+
+def test_c_without_declarations_of_utilities(tmp_path):
+    source = tmp_path / "law.c"
+    source.write_text(
+        '#include "aba_for_c.h"\n'
+        "void FOR_NAME(vfric_coef, VFRIC_COEF)(double *f, double *d, int *n, int *np, int *nt,\n"
+        "  int *nf, int *j, double *r, char *a, char *b, char *c, double *props, double *v,\n"
+        "  double *p, double *t, double *g) {\n"
+        "  if (*p > 5) FOR_NAME(xit, XIT)();\n  f[0] = props[0];\n}\n"
+    )
+    _check_quarter(source)
+    source.write_text(source.read_text().replace("props[0];", "mu(props);"))
+    with pytest.raises(usersub.CompileError, match=r"law\.c:6:.*'mu'"):
+        usersub.load(source)
 
 
 def test_numbers_of_cards_behind_column_72(tmp_path):

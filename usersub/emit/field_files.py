@@ -30,6 +30,7 @@ def artefacts() -> dict[str, str]:
     files = {
         "ABA_PARAM.INC": standard,
         "aba_param.inc": standard,
+        "aba_param_dp.inc": standard,
         "vaba_param_sp.inc": single,
         "vaba_param_dp.inc": double,
         "SMAAspUserArrays.hdr": _fortran(arrays),
@@ -39,6 +40,7 @@ def artefacts() -> dict[str, str]:
         "SMAAspUserUtilities.h": _c_utilities(),
         "SMAAspUserSubroutines.h": _c_both(),
         "omi_for_c.h": _for_name(),
+        "aba_for_c.h": _c_file("aba_for_c.h", '#include "omi_for_c.h"\n', ""),
     }
     for precision, rule in (("single", single), ("double", double)):
         files |= {f"{precision}/{name}": rule for name in ("VABA_PARAM.INC", "vaba_param.inc")}

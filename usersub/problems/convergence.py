@@ -31,6 +31,9 @@ _ORDERS = {"rigid": 2.0, "rigid rk4": 4.0, "implicit": 2.0, "implicit Romberg": 
 _ANY_STEPS = (1, 8, 64)
 _ANY_BLOCK_STEPS = (8, 32, 128)
 
+#: Contact points: their number changes rounding alone.
+_POINTS = 16
+
 #: Intervals of the table between slip rates, and contact points enough to meet its worst places.
 _INTERVALS = (80, 160, 320, 640)
 _TABLE_SAMPLES = 1024
@@ -164,7 +167,9 @@ def _study(
 ) -> Iterator[Study]:
     """Studies of one problem by its number of increments."""
     outcomes = [
-        problems.run(name, interface=interface, language="c", method=method, steps=count)
+        problems.run(
+            name, interface=interface, language="c", method=method, steps=count, points=_POINTS
+        )
         for count in steps
     ]
     for quantity, error in errors.items():

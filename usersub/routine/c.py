@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from usersub import abi
@@ -24,6 +25,25 @@ _OF_LANGUAGE = {
     "c++": ("-std=gnu++17",),
 }
 _WARNINGS = ("-Wunused-parameter",)
+
+
+#: For calls without a declaration of these, which return nothing or an `int`, as C assumes.
+_PERMIT_UNDECLARED = "-Wno-error=implicit-function-declaration"
+_UTILITIES = frozenset(
+    """
+    xit_ xplb_exit_ stdb_abqerr_ xplb_abqerr_ getpartinfo_ vgetpartinfo_ getjobname_ getoutdir_
+    vgetjobname_ vgetoutdir_ getrank_ vgetrank_ getnumcpus_ vgetnumcpus_ get_thread_id
+    get_thread_id_ getNumThreads getnumthreads_ MutexInit MutexLock MutexUnlock mutexinit_
+    mutexlock_ mutexunlock_
+    """.split()
+)
+_UNDECLARED = re.compile(r"error: implicit declaration of function '(\w+)'")
+
+
+def _only_undeclared_utilities(words: str) -> bool:
+    """Whether all errors are calls of utility routines that the file does not declare."""
+    names = _UNDECLARED.findall(words)
+    return words.count(" error: ") == len(names) and _UTILITIES.issuperset(names)
 
 
 def flags(language: str, precision: str) -> tuple[str, ...]:
@@ -60,9 +80,10 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
         if known is not None:
             return known
         part = folder / "main.o"
-        outcome = compilers.run(
-            [*command, *_WARNINGS, "-c", str(plain), "-o", str(part)], source.parent
-        )
+        to_object = [*command, *_WARNINGS, "-c", str(plain), "-o", str(part)]
+        outcome = compilers.run(to_object, source.parent)
+        if outcome.code and _only_undeclared_utilities(outcome.text):
+            outcome = compilers.run([*to_object, _PERMIT_UNDECLARED], source.parent)
         if outcome.code:
             # Once more from the source, for columns that the user finds there.
             outcome = compilers.run(

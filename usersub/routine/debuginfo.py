@@ -101,7 +101,7 @@ def _signature(dwarf, unit, function, symbol: str, fortran: bool) -> Signature:
     parameters = tuple(
         _parameter(die, fortran)
         for die in function.iter_children()
-        if die.tag == "DW_TAG_formal_parameter" and not _is_hidden(die)
+        if die.tag == "DW_TAG_formal_parameter" and not _is_hidden(die, fortran)
     )
     return Signature(
         symbol,
@@ -112,10 +112,12 @@ def _signature(dwarf, unit, function, symbol: str, fortran: bool) -> Signature:
     )
 
 
-def _is_hidden(die) -> bool:
-    """Whether the compiler added the parameter: lengths of texts, with names no Fortran has. An
-    array of assumed shape is marked as artificial too."""
-    return bool(_value(die, "DW_AT_artificial")) and not _text(die, "DW_AT_name")[:1].isalpha()
+def _is_hidden(die, fortran: bool) -> bool:
+    """Whether the compiler added the parameter, as it does with the lengths of texts. It marks
+    arrays of assumed shape like them."""
+    if not _value(die, "DW_AT_artificial"):
+        return False
+    return not fortran or _parameter(die, fortran).passing != "descriptor"
 
 
 def _file(dwarf, unit, function) -> str:

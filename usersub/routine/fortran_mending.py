@@ -13,6 +13,15 @@ _FAULT = r"^(?P<file>[^\s:][^:]*):(?P<line>\d+):(?P<column>\d+): Error: "
 _MARKER = re.compile(r'^# (\d+) "([^"]*)"$')
 _NUMBER = re.compile(r"^\s*[+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[ed][+-]?\d+)?\s*$", re.I)
 _CALL = re.compile(r"\b(sign|max|min|mod|dim|atan2)\s*\(", re.I)
+_GENERIC = {
+    **{
+        f"d{name}": name
+        for name in "abs sqrt exp log log10 sin cos tan asin acos atan atan2".split()
+    },
+    **{f"d{name}": name for name in "sinh cosh tanh sign mod dim prod".split()},
+    **{"dint": "aint", "dnint": "anint", "idint": "int", "idnint": "nint"},
+    **{"alog": "log", "alog10": "log10", "amod": "mod"},
+}
 _CONDITION = re.compile(r"\b(?:if|while)\s*\(", re.I)
 #: What stands behind column 72 of punched cards: their number, or an `&` for free form.
 _TAIL = re.compile(r"^\s*(?:&|[A-Za-z]{0,5}\s*\d{2,8})\s*$")
@@ -24,6 +33,7 @@ def mended(files: dict[str, bytes], words: str, free: bool) -> dict[str, bytes] 
     - `.EQ.` and `.NE.` between logicals,
     - arguments of different types in SIGN, MAX, MIN, MOD, DIM and ATAN2, one of them a number,
     - an integer as a condition (odd is true),
+    - DSQRT, ALOG and their like with arguments of the other precision (generic names: SQRT, LOG),
     - numbers of punched cards behind column 72, if nothing else stands there.
 
     Returns:
@@ -118,6 +128,16 @@ def _mixed_types(lines: list[str], start: int, column: int, fault: re.Match) -> 
     return True
 
 
+def _generic_name(lines: list[str], start: int, column: int, fault: re.Match) -> bool:
+    """The generic name of the function instead of that for one precision."""
+    name, line = fault["name"], lines[start]
+    calls = [c for c in re.finditer(rf"\b{name}(?=\s*\()", line, re.I) if c.end() <= column]
+    if name not in _GENERIC or not calls:
+        return False
+    lines[start] = line[: calls[-1].start()] + _GENERIC[name] + line[calls[-1].end() :]
+    return True
+
+
 def _condition(lines: list[str], start: int, column: int, fault: re.Match) -> bool:
     line = lines[start]
     for found in _CONDITION.finditer(line):
@@ -158,6 +178,11 @@ _MENDS: tuple[tuple[re.Pattern[str], _Mend], ...] = tuple(
             r"(?:be the same type and kind as '\w+'|be \w+\(\d\)|have the same type)$",
             _mixed_types,
         ),
+        (
+            r"'\w+' argument of '(?P<name>\w+)' intrinsic at \(1\) must be double precision$",
+            _generic_name,
+        ),
+        (r"In call to '(?P<name>\w+)' at \(1\), type mismatch in argument", _generic_name),
         (r"IF clause at \(1\) requires a scalar LOGICAL expression$", _condition),
         (
             r"Exit condition of DO WHILE loop at \(1\) must be a scalar LOGICAL expression$",

@@ -50,11 +50,11 @@ def modules_first(found: list[Unit], count: int) -> list[int] | None:
         elif inside and unit.line > modules[inside].statements[-1].last:
             inside = ""
         for statement in unit.statements:
-            name = _USE.match(statement.code)
-            if name and name[1] in modules:
-                late = late or name[1] not in begun
+            use = _USE.match(statement.code)
+            if use and use[1] in modules:
+                late = late or use[1] not in begun
                 if inside:
-                    used[inside].append(name[1])
+                    used[inside].append(use[1])
     if not late:
         return None
     front: list[str] = []
@@ -81,8 +81,8 @@ def without_vendor_modules(lines: list[str], found: list[Unit]) -> None:
     own = {unit.name for unit in found if unit.kind == "module"}
     for unit in found:
         for statement in unit.statements:
-            name = _USE.match(statement.code)
-            if name and name[1] in _VENDOR_MODULES and name[1] not in own:
+            use = _USE.match(statement.code)
+            if use and use[1] in _VENDOR_MODULES and use[1] not in own:
                 index = statement.line - 1
                 if index == statement.last and _USE_LINE.match(lines[index].partition("!")[0]):
                     lines[index] = ""

@@ -144,7 +144,15 @@ def load(
     if not build.interfaces:
         raise LoadError(_nothing(build))
     names = _chosen(file, dict.fromkeys(build.interfaces), interface)
-    made = {name: _routine(code, name, generation) for name in names}
+    made = {}
+    for name in names:
+        try:
+            made[name] = _routine(code, name, generation)
+        except AbiError as error:
+            others = [other for other in names if other != name]
+            if others:
+                error.args = (f"{error} (interface='{others[0]}' loads {others[0].upper()} alone)",)
+            raise
     return RoutineFile(file, language, precision, made, code)
 
 
@@ -160,7 +168,7 @@ def _language(file: Path) -> str:
 
 
 def _check_text(file: Path) -> None:
-    """Refuses what no compiler reads as text, in a sentence instead of a hundred of the compiler."""
+    """Refuses what no compiler reads, in one sentence instead of a hundred of the compiler's."""
     try:
         with file.open("rb") as opened:
             head = opened.read(1 << 16)
