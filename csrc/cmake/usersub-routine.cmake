@@ -1,42 +1,79 @@
 # SPDX-License-Identifier: MIT
 
+# The caller of the function may be in another scope than find_package(usersub).
+set_property(GLOBAL PROPERTY USERSUB_INCLUDE_DIR "${USERSUB_INCLUDE_DIR}")
+
 # Builds user code, unchanged, into a shared library that `usub_routine_open` loads.
 #
 #   usersub_add_routine(<name> <source>... [SINGLE])
 #
 # The sources are C, C++ or Fortran (fixed form unless the suffix says otherwise); the languages
-# have to be enabled in the project. SINGLE builds for single precision (explicit interfaces).
-# STOP, exit and abort in the sources return to the driver instead of ending the program.
+# have to be enabled in the project. A Fortran file that uses a module may stand beside the module's
+# file. SINGLE builds for single precision (explicit interfaces). Include folders and further
+# options are added to the target <name> as usual. STOP, exit and abort in the sources return to the
+# driver instead of ending the program.
 function(usersub_add_routine name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "SINGLE" "" "")
-  if(NOT arg_UNPARSED_ARGUMENTS)
+  set(sources ${arg_UNPARSED_ARGUMENTS})
+  if(NOT sources)
     message(FATAL_ERROR "usersub_add_routine(${name}) needs at least one source file")
   endif()
-  add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS})
+  usersub_check_languages(${name} ${sources})
+  add_library(${name} MODULE ${sources})
   set(precision double)
   if(arg_SINGLE)
     set(precision single)
     target_compile_definitions(${name} PRIVATE USUB_SINGLE)
   endif()
-  set(field "${USERSUB_INCLUDE_DIR}/usersub/field")
+  get_property(include_dir GLOBAL PROPERTY USERSUB_INCLUDE_DIR)
+  set(field "${include_dir}/usersub/field")
   target_include_directories(${name} PRIVATE "${field}/${precision}" "${field}")
   target_link_libraries(${name} PRIVATE usersub::usersub)
+  # Two users' files may each have a module of the same name.
+  set_target_properties(
+    ${name} PROPERTIES Fortran_MODULE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/${name}_modules"
+                       Fortran_PREPROCESS ON)
   target_compile_options(
     ${name}
     PRIVATE
-      -ffp-contract=off -fno-semantic-interposition
-      "$<$<COMPILE_LANGUAGE:Fortran>:-cpp;-std=legacy;-fcray-pointer;-fallow-argument-mismatch;-frecursive>"
-  )
-  foreach(source IN LISTS arg_UNPARSED_ARGUMENTS)
+      -ffp-contract=off
+      -fno-semantic-interposition
+      "$<$<CONFIG:>:-O2>"
+      "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-cpp;-std=legacy;-fcray-pointer;-frecursive>"
+      "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fallow-argument-mismatch;-fallow-invalid-boz>"
+      "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fdollar-ok;-ffree-line-length-none>")
+  foreach(source IN LISTS sources)
     if(source MATCHES "\\.(f|for|F|FOR)$")
+      set_property(SOURCE "${source}" PROPERTY Fortran_FORMAT FIXED)
       set_property(
         SOURCE "${source}"
         APPEND
-        PROPERTY COMPILE_OPTIONS "-ffixed-form;-ffixed-line-length-132")
+        PROPERTY COMPILE_OPTIONS
+                 "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-ffixed-line-length-132>")
     endif()
   endforeach()
 
-  file(STRINGS "${USERSUB_INCLUDE_DIR}/usersub/wrap.txt" wrapped REGEX "^[A-Za-z_]")
+  file(STRINGS "${include_dir}/usersub/wrap.txt" wrapped REGEX "^[A-Za-z_]")
   list(TRANSFORM wrapped PREPEND "LINKER:--wrap=")
   target_link_options(${name} PRIVATE "LINKER:-Bsymbolic" ${wrapped})
+endfunction()
+
+# Says which language a source needs; CMake itself would only say that it knows no link language.
+function(usersub_check_languages name)
+  get_property(enabled GLOBAL PROPERTY ENABLED_LANGUAGES)
+  foreach(source IN LISTS ARGN)
+    set(language "")
+    if(source MATCHES "\\.(f|for|ftn|f77|f90|f95|f03|f08|F|FOR|F77|F90|F95|F03|F08)$")
+      set(language Fortran)
+    elseif(source MATCHES "\\.(cpp|cc|cxx|c\\+\\+)$")
+      set(language CXX)
+    elseif(source MATCHES "\\.c$")
+      set(language C)
+    endif()
+    if(language AND NOT ";${enabled};" MATCHES ";${language};")
+      message(
+        FATAL_ERROR "usersub_add_routine(${name}): ${source} needs the language ${language}; write "
+                    "enable_language(${language}) before, or name it in project()")
+    endif()
+  endforeach()
 endfunction()

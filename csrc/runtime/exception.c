@@ -86,9 +86,10 @@ static void end_exception(char *text, size_t size, struct _Unwind_Exception *exc
 }
 
 /** Called by the unwinder: first to find the frame where the exception ends, then to go there. */
-__attribute__((used)) _Unwind_Reason_Code
-usub_personality(int version, _Unwind_Action actions, _Unwind_Exception_Class class,
-                 struct _Unwind_Exception *exception, struct _Unwind_Context *context) {
+__attribute__((used)) _Unwind_Reason_Code usub_personality(int version, _Unwind_Action actions,
+                                                           _Unwind_Exception_Class class,
+                                                           struct _Unwind_Exception *exception,
+                                                           struct _Unwind_Context *context) {
   (void)class;
   (void)context;
   /* A thread that is cancelled unwinds as well, and has to go on. */
