@@ -219,6 +219,8 @@ static void handle(int signal, siginfo_t *info, void *context) {
   }
   guard->status = USUB_ROUTINE_CRASHED;
   describe(guard->reason, sizeof guard->reason, signal, info, context);
+  if (signal == SIGSEGV)
+    guard->fault = (uintptr_t)info->si_addr;
   usub_guard_jump(guard);
 }
 

@@ -41,6 +41,7 @@ void usub_guard_push(usub_guard *guard) {
   usub_thread *thread = &usub_this_thread;
   guard->status = 0;
   guard->single = 0;
+  guard->fault = 0;
   guard->float_control = control_get();
   guard->outer = thread->guard;
   guard->reason[0] = '\0';

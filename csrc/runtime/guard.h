@@ -28,12 +28,13 @@ typedef struct usub_guard {
   sigjmp_buf env;
   int32_t status;           /* USUB_ROUTINE_STOPPED, USUB_ROUTINE_CRASHED */
   int32_t single;           /* 1: the routine is in single precision (REALV of XPLB_ABQERR) */
+  uintptr_t fault;          /* address of a memory fault, 0 if it was none */
   uint64_t float_control;   /* rounding and trap settings of the caller */
   struct usub_guard *outer; /* the guard below this one */
   char reason[256];         /* "XIT", "STOP 3", "integer division by zero"; no full stop */
 } usub_guard;
 
-/** Arms `guard` for this thread; status 0, reason "", single 0. */
+/** Arms `guard` for this thread; status 0, reason "", single 0, fault 0. */
 void usub_guard_push(usub_guard *guard);
 /** Disarms it, and whatever was armed above it. */
 void usub_guard_pop(usub_guard *guard);
