@@ -150,9 +150,7 @@ int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t ind
   if (seen)
     return seen;
   if (status < 0)
-    return usub_block_fail(driver, call, index, call->n == 1 ? first : -1, status,
-                           "%s: the routine ended with %s in points %d to %d", driver->title,
-                           reason, first, first + call->n - 1);
+    return usub_ended(driver, call, index, first, status, reason);
   const ptrdiff_t bad = usub_first_bad(call->argv[USUB_COEF], (size_t)call->n, driver->single);
   if (bad >= 0)
     return usub_block_fail(driver, call, index, first + (int32_t)bad, USUB_NOT_FINITE,

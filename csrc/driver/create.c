@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Making drivers: refusing scenes that do not fit, sizes, blocks, constants. */
 #include <ctype.h>
-#include <float.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 #include "internal.h"
 
@@ -176,26 +173,6 @@ static void set_name(char *to, const char *from) {
     to[i] = (char)toupper((unsigned char)from[i]);
 }
 
-static int32_t copy_props(usub_driver *driver, const usub_scene *scene, usub_error *error) {
-  driver->prop_count = scene->prop_count;
-  driver->props = calloc((size_t)max_int(scene->prop_count, 1), sizeof(double));
-  if (!driver->props)
-    return usub_error_set(error, USUB_NO_MEMORY, "no memory for props");
-  for (int32_t i = 0; i < scene->prop_count; ++i) {
-    const double value = scene->props[i];
-    if (!driver->single) {
-      ((double *)driver->props)[i] = value;
-      continue;
-    }
-    ((float *)driver->props)[i] = (float)value;
-    if (isinf((float)value) && !isinf(value))
-      return usub_error_set(error, USUB_BAD_ARGUMENT,
-                            "%s: props[%d] = %g; single precision ends at %g", driver->title, i,
-                            value, (double)FLT_MAX);
-  }
-  return USUB_OK;
-}
-
 static int32_t make_constants(usub_driver *driver) {
   const usub_sizes *size = &driver->size;
   const size_t ones = (size_t)max_int(max_int(size->N, size->X), 4);
@@ -239,7 +216,7 @@ static int32_t fill_driver(usub_driver *driver, const usub_scene *scene, usub_er
   if (!status)
     status = check_interface(driver, error);
   if (!status)
-    status = copy_props(driver, scene, error);
+    status = usub_props_create(driver, scene, error);
   if (status)
     return status;
   set_sizes(driver);
@@ -296,9 +273,8 @@ void usub_driver_free(usub_driver *driver) {
   usub_calls_free(driver);
   usub_slots_free(driver);
   usub_standard_free(driver);
-  if (driver->nothing)
-    munmap(driver->nothing, driver->nothing_size);
-  free(driver->props);
+  usub_nothing_free(driver);
+  usub_props_free(driver);
   free(driver->ones);
   free(driver->node_numbers);
   free(driver->state_backup);

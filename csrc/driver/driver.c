@@ -86,8 +86,10 @@ static int can_replay(const usub_driver *driver) {
 }
 
 int32_t usub_replay(usub_driver *driver, usub_entry entry) {
-  if (!driver || !entry)
+  if (!driver)
     return USUB_BAD_ARGUMENT;
+  if (!entry)
+    return usub_fail(driver, USUB_BAD_ARGUMENT, "%s: the entry to replay is NULL", driver->title);
   if (!can_replay(driver))
     return usub_fail(driver, USUB_WRONG_ORDER, "%s: no block has failed", driver->title);
   /* One block with the twin in place of the routine; then everything is put back. */

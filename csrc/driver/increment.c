@@ -42,7 +42,8 @@ static void keep_iteration(usub_driver *driver) {
   memcpy(last->dslip, at.dslip, vector);
   memcpy(last->tau, at.tau, vector);
   memcpy(last->sed, at.sed, n * sizeof(double));
-  memcpy(last->pressure, at.pressure, n * sizeof(double));
+  for (size_t i = 0; i < n; ++i)
+    last->pressure[i] = last->closed[i] ? at.pressure[i] : 0; /* whatever the host has there */
   last->done = last->complete = 1;
   last->pnewdt = USUB_PNEWDT_PRESET;
   for (int32_t w = 0; w < driver->threads; ++w)

@@ -118,8 +118,9 @@ static int32_t refuse_input(usub_driver *driver, usub_call *call, int32_t index,
   const usub_slot *slot = source->slot ? source->slot : culprit(driver, point);
   if (!slot)
     return usub_block_fail(driver, call, index, point, USUB_BAD_INPUT,
-                           "%s: %s of point %d = %g; expected a finite value", driver->title,
-                           argument, point, value);
+                           "%s: %s of point %d = %g in a time increment of %g; expected a finite "
+                           "value",
+                           driver->title, argument, point, value, driver->clock.time[2]);
   return usub_block_fail(driver, call, index, point, USUB_BAD_INPUT,
                          "%s: %s of point %d is not finite (argument %s = %g)", driver->title,
                          slot->port->name, point, argument, value);

@@ -111,7 +111,7 @@ typedef struct usub_memory {
 
 /** Where the memory of an argument comes from. */
 typedef enum {
-  USUB_LEFT_OUT, /* nobody reads or writes it: a read-only page of zeros */
+  USUB_LEFT_OUT, /* nobody reads or writes it: read-only zeros */
   USUB_FIXED,    /* the same pointer in every block */
   USUB_POINTS,   /* the number of contact points of the block */
   USUB_SLICE,    /* host memory plus first point times stride */
@@ -195,12 +195,15 @@ struct usub_driver {
   usub_clock clock, accepted; /* now; of the last increment that counts, which is what is saved */
   usub_counts counts;
   char names[3][USUB_NAME_LENGTH];
-  void *props;
+  void *props; /* end at a page that nobody may touch */
   int32_t prop_count;
+  char *props_pages;
+  size_t props_bytes;
   void *ones;            /* reals: areas, shape functions of nodes */
   int32_t *node_numbers; /* 1, 2, ...: global numbers where the host gives none */
-  void *nothing;         /* read-only zeros for left-out arguments */
-  size_t nothing_size;
+  /* Read-only zeros for arguments that are left out, `nothing_place` bytes for each. */
+  char *nothing;
+  size_t nothing_place;
   char missing[256];   /* what the plan lacks */
   usub_iteration last; /* standard */
   /* explicit */
@@ -264,6 +267,9 @@ void usub_put_points(usub_driver *driver, int32_t position);
 void usub_put_array(usub_driver *driver, int32_t position, const char *array, const void *fallback);
 /** Notes that `array` is missing if the routine is known to read the argument made of it. */
 void usub_need_array(usub_driver *driver, int32_t position, const char *array);
+/** Zeros that nobody can write to, for one argument. */
+void *usub_nothing(const usub_driver *driver, int32_t position);
+void usub_nothing_free(usub_driver *driver);
 /** Memory of the driver, `bytes` a point from `data`. */
 void usub_put_memory(usub_driver *driver, int32_t position, const void *data, size_t bytes);
 /** Memory of the worker that the driver fills ("gathered", "computed") or empties ("output"). */
@@ -290,11 +296,21 @@ int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, i
 /** Refuses them in the arrays without a point index, and in shape functions that spread forces. */
 int32_t usub_check_whole_inputs(usub_driver *driver);
 
+/* props.c */
+/** Copies the properties. */
+int32_t usub_props_create(usub_driver *driver, const usub_scene *scene, usub_error *error);
+void usub_props_free(usub_driver *driver);
+
 /* run.c */
 /** Calls the routine with the arguments of `call`; the caller holds the guard. */
 int32_t usub_call_routine(const usub_driver *driver, const usub_call *call);
-/** The same under a guard; the reason of a stop goes to the message of the call. */
+/** The same under a guard; says in `reason` why it ended, if it did. */
 int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
+/** Records that the routine did not return as it should in the block that `call` aims at. */
+int32_t usub_ended(usub_driver *driver, usub_call *call, int32_t index, int32_t first,
+                   int32_t status, const char *reason);
+/** Why a routine ended, from its guard; a fault in an argument that is not there gets its name. */
+void usub_explain(const usub_driver *driver, const usub_guard *guard, char reason[256]);
 /** One block of points: fills, calls, checks, empties. */
 typedef int32_t (*usub_block_fn)(usub_driver *driver, usub_call *call, int32_t index);
 /** Runs all blocks over the workers and reports the failure of the lowest block. */

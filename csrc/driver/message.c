@@ -1,15 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* What the drivers say when something is wrong. */
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "internal.h"
 
+/* Formats; the sign that some NaN have is of no use to a reader. */
+static void say(char *to, size_t size, const char *format, va_list list) {
+  vsnprintf(to, size, format, list);
+  for (char *at = strstr(to, " -nan"); at; at = strstr(at + 1, " -nan"))
+    if (!isalnum((unsigned char)at[5]))
+      memmove(at + 1, at + 2, strlen(at + 1));
+}
+
 int32_t usub_fail(usub_driver *driver, int32_t status, const char *format, ...) {
   va_list list;
   va_start(list, format);
-  vsnprintf(driver->message, sizeof driver->message, format, list);
+  say(driver->message, sizeof driver->message, format, list);
   va_end(list);
   driver->failed_point = -1; /* a caller who knows the point says so afterwards */
   return status;
@@ -24,7 +33,7 @@ int32_t usub_error_set(usub_error *error, int32_t status, const char *format, ..
   if (error) {
     va_list list;
     va_start(list, format);
-    vsnprintf(error->message, sizeof error->message, format, list);
+    say(error->message, sizeof error->message, format, list);
     va_end(list);
     error->status = status;
   }
@@ -40,7 +49,7 @@ int32_t usub_block_fail(usub_driver *driver, usub_call *call, int32_t block, int
     return status;
   va_list list;
   va_start(list, format);
-  vsnprintf(call->message, sizeof call->message, format, list);
+  say(call->message, sizeof call->message, format, list);
   va_end(list);
   call->failed_block = block;
   call->failed_point = point;

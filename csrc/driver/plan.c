@@ -8,11 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include "internal.h"
 
-/* Room for what a wrongly declared routine might read, at least; untouched pages cost nothing. */
-#define NOTHING_BYTES ((size_t)1 << 24)
+/* Room for what a wrongly declared routine might read; untouched pages cost nothing. */
+#define LEAST_NOTHING ((size_t)1 << 20)
+#define MOST_NOTHING ((size_t)1 << 28)
 #define ALIGNMENT 64
 
 int32_t usub_used(const usub_driver *driver, int32_t position) {
@@ -93,7 +95,7 @@ void usub_put_array(usub_driver *driver, int32_t position, const char *array,
     usub_need_array(driver, position, array);
   source->from = USUB_FIXED;
   source->slot = NULL;
-  source->data = fallback ? fallback : driver->nothing;
+  source->data = fallback ? fallback : usub_nothing(driver, position);
   source->bytes = 0;
   source->what = "constant";
   source->why = slot->port->unbound[0] ? slot->port->unbound : "nothing is bound: zeros";
@@ -124,7 +126,7 @@ void usub_put_absent(usub_driver *driver, int32_t position, size_t per_point, co
   usub_source *source = put(driver, position, USUB_FIXED, per_point);
   if (source->from == USUB_LEFT_OUT)
     return;
-  source->data = driver->nothing;
+  source->data = usub_nothing(driver, position);
   source->bytes = 0;
   source->what = "left out";
   source->why = why;
@@ -201,7 +203,7 @@ static void aim_fixed(usub_driver *driver) {
     for (int32_t w = 0; w < driver->threads; ++w) {
       usub_call *call = &driver->calls[w];
       if (source->from == USUB_LEFT_OUT)
-        call->argv[i] = driver->nothing;
+        call->argv[i] = usub_nothing(driver, i);
       if (source->from == USUB_POINTS)
         call->argv[i] = &call->n;
       if (source->from == USUB_FIXED)
@@ -234,17 +236,30 @@ static int32_t check_bound(usub_driver *driver) {
   return USUB_OK;
 }
 
-/* Zeros for every argument that is left out or absent: as long as the longest array. */
+/* Every argument has a place of its own, so that the address of a fault tells which one it was. */
 static void make_nothing(usub_driver *driver) {
-  size_t size = NOTHING_BYTES;
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+  size_t size = LEAST_NOTHING;
   for (int32_t i = 0; i < driver->slot_count; ++i) {
     const size_t bytes = driver->slots[i].count * driver->slots[i].element;
     if (bytes > size)
-      size = bytes;
+      size = bytes < MOST_NOTHING ? bytes : MOST_NOTHING;
   }
-  void *pages = mmap(NULL, size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  driver->nothing_place = (size + page - 1) / page * page + page;
+  void *pages = mmap(NULL, driver->nothing_place * (size_t)driver->face->count, PROT_READ,
+                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   driver->nothing = pages == MAP_FAILED ? NULL : pages;
-  driver->nothing_size = size;
+}
+
+void *usub_nothing(const usub_driver *driver, int32_t position) {
+  /* Half a page in: an index that is too small is still in the place of its argument. */
+  const size_t into = 2048;
+  return driver->nothing ? driver->nothing + driver->nothing_place * (size_t)position + into : NULL;
+}
+
+void usub_nothing_free(usub_driver *driver) {
+  if (driver->nothing)
+    munmap(driver->nothing, driver->nothing_place * (size_t)driver->face->count);
 }
 
 static void make_plan(usub_driver *driver) {

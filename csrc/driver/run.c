@@ -45,6 +45,30 @@ int32_t usub_call_routine(const usub_driver *driver, const usub_call *call) {
   return USUB_OK;
 }
 
+/* Says which property was meant, if a fault lies behind the last one. */
+static int is_behind_props(const usub_driver *driver, uintptr_t fault, char reason[256]) {
+  const uintptr_t first = (uintptr_t)driver->props;
+  const uintptr_t end = (uintptr_t)driver->props_pages + driver->props_bytes;
+  if (fault < first || fault >= end)
+    return 0;
+  const char *props = usub_interface_key(driver->face) == USUB_INTERFACE_FRIC ? "PROPS" : "props";
+  snprintf(reason, 256, "a memory fault in %s(%zu), of which the scene has %d", props,
+           (size_t)(fault - first) / driver->size.real + 1, driver->prop_count);
+  return 1;
+}
+
+void usub_explain(const usub_driver *driver, const usub_guard *guard, char reason[256]) {
+  const uintptr_t nothing = (uintptr_t)driver->nothing, fault = guard->fault;
+  memcpy(reason, guard->reason, sizeof guard->reason);
+  if (!fault || is_behind_props(driver, fault, reason) || fault < nothing)
+    return;
+  const size_t position = (fault - nothing) / driver->nothing_place;
+  if (position >= (size_t)driver->face->count)
+    return;
+  snprintf(reason, 256, "a memory fault in %s, which is not there (%s)",
+           driver->face->args[position].modern, driver->sources[position].why);
+}
+
 __attribute__((noinline)) int32_t usub_call_guarded(const usub_driver *driver, usub_call *call,
                                                     char reason[256]) {
   USUB_ENDS_EXCEPTIONS;
@@ -58,10 +82,21 @@ __attribute__((noinline)) int32_t usub_call_guarded(const usub_driver *driver, u
       strcpy(reason, status == USUB_ROUTINE_RAISED ? "an exception" : "its status");
   } else {
     status = guard.status;
-    memcpy(reason, guard.reason, sizeof guard.reason);
+    usub_explain(driver, &guard, reason);
   }
   usub_guard_pop(&guard);
   return status;
+}
+
+int32_t usub_ended(usub_driver *driver, usub_call *call, int32_t index, int32_t first,
+                   int32_t status, const char *reason) {
+  if (call->n == 1)
+    return usub_block_fail(driver, call, index, first, status,
+                           "%s: the routine ended with %s at point %d", driver->title, reason,
+                           first);
+  return usub_block_fail(driver, call, index, -1, status,
+                         "%s: the routine ended with %s in points %d to %d", driver->title, reason,
+                         first, first + call->n - 1);
 }
 
 usub_block_fn usub_block_of(const usub_driver *driver) {

@@ -190,9 +190,10 @@ __attribute__((noinline)) int32_t usub_standard_block(usub_driver *driver, usub_
     for (; p < last && status >= 0; p = p + 1)
       status = run_point(driver, call, &at, index, p);
   } else {
+    char reason[256];
+    usub_explain(driver, &guard, reason);
     status = usub_block_fail(driver, call, index, p, guard.status,
-                             "%s: the routine ended with %s at point %d", driver->title,
-                             guard.reason, p);
+                             "%s: the routine ended with %s at point %d", driver->title, reason, p);
   }
   usub_guard_pop(&guard);
   return status;

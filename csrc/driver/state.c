@@ -87,8 +87,15 @@ size_t usub_state_size(const usub_driver *driver) {
 }
 
 int32_t usub_state_save(const usub_driver *driver, void *buffer, size_t size) {
-  if (!driver || !buffer || size < usub_state_size(driver))
+  if (!driver)
     return USUB_BAD_ARGUMENT;
+  usub_driver *speaker = (usub_driver *)(uintptr_t)driver; /* only its message may change */
+  usub_start_call(speaker);
+  const size_t needed = usub_state_size(driver);
+  if (!buffer || size < needed)
+    return usub_fail(speaker, USUB_BAD_ARGUMENT,
+                     "%s: the saved state takes %zu bytes; there are %zu%s", driver->title, needed,
+                     size, buffer ? "" : ", at NULL");
   state_header header = header_of(driver);
   char *at = (char *)buffer + sizeof header;
   for (int32_t i = 0; i < driver->slot_count; ++i) {
@@ -180,9 +187,11 @@ static int32_t refuse(usub_driver *driver, const char *why) {
 }
 
 int32_t usub_state_load(usub_driver *driver, const void *buffer, size_t size) {
-  if (!driver || !buffer)
+  if (!driver)
     return USUB_BAD_ARGUMENT;
   usub_start_call(driver);
+  if (!buffer)
+    return usub_fail(driver, USUB_BAD_ARGUMENT, "%s: the saved state is NULL", driver->title);
   if (driver->last.open)
     return usub_fail(driver, USUB_WRONG_ORDER,
                      "%s: a state cannot be loaded while an increment is open", driver->title);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An explicit host with different numbers everywhere, and what each routine should be told of it."""
+"""An explicit host with different numbers everywhere, and what each routine is told of it."""
 
 from __future__ import annotations
 

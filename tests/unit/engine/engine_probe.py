@@ -112,7 +112,7 @@ def _record(probe: Probe, found: dict[str, Any]) -> None:
 
 def compare(calls: list[dict[str, Any]], expected: list[dict[str, Any]], tolerance: float) -> None:
     """Every argument of every call: texts, integers and copies exactly, computed ones within
-    `tolerance` of their largest entry. An expected value (array, bool) says which: True computed."""
+    `tolerance` of their largest entry. An expected value of type `Computed` is one of these."""
     assert len(calls) == len(expected)
     for number, (found, wanted) in enumerate(zip(calls, expected, strict=True)):
         assert set(found) == set(wanted)
