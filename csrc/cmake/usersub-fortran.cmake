@@ -15,6 +15,9 @@ if(NOT TARGET usersub::fortran)
                                  POSITION_INDEPENDENT_CODE ON)
     target_include_directories(usersub_fortran INTERFACE "${usersub_module_dir}")
     target_link_libraries(usersub_fortran PUBLIC usersub::usersub)
+    # The project's own flags may ask for an older standard.
+    target_compile_options(
+      usersub_fortran PRIVATE "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018>")
     add_library(usersub::fortran ALIAS usersub_fortran)
   else()
     add_library(usersub::fortran INTERFACE IMPORTED)

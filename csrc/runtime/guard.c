@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "thread.h"
+#include "units.h"
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -53,6 +54,8 @@ void usub_guard_push(usub_guard *guard) {
 
 void usub_guard_pop(usub_guard *guard) {
   usub_this_thread.guard = guard->outer;
+  if (guard->status)
+    usub_units_end_statements();
 }
 
 int usub_guard_armed(void) {

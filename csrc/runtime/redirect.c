@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "missing.h"
+#include "units.h"
 
 /* NULL if it cannot be found. Never closed: it is this library. */
 static void *own_handle(Dl_info *own) {
@@ -160,6 +161,7 @@ int32_t usub_redirect_stops(void *library) {
   struct link_map *map = NULL;
   if (library == NULL || self == NULL || dlinfo(library, RTLD_DI_LINKMAP, &map) != 0)
     return USUB_BAD_ARGUMENT;
+  usub_units_find(library);
   image loaded = {.handle = library, .base = map->l_addr};
   if (loaded.base == 0) /* the program itself */
     return 0;

@@ -10,7 +10,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -46,15 +45,6 @@ def _need(*tools: str) -> None:
             pytest.skip(f"{tool} is missing; install it to build the example hosts")
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _tools_of_the_environment():
-    """CMake and ninja may come with the Python environment, whether or not it is activated."""
-    before = os.environ["PATH"]
-    os.environ["PATH"] = f"{before}{os.pathsep}{Path(sys.executable).parent}"
-    yield
-    os.environ["PATH"] = before
-
-
 def _cmake(source: Path, folder: Path, *options: str) -> None:
     """Configures and builds `source` in `folder`."""
     _need("cmake")
@@ -78,16 +68,6 @@ def _check(line: str) -> None:
     time, distance = _answer(line)
     assert time == pytest.approx(_TIME, rel=1e-9)
     assert distance == pytest.approx(_DISTANCE, rel=1e-9)
-
-
-@pytest.fixture(scope="session")
-def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The C core, built and installed by CMake alone."""
-    _need("cc")
-    folder = tmp_path_factory.mktemp("core")
-    _cmake(_ROOT, folder / "build", "-DCMAKE_INSTALL_LIBDIR=lib")
-    _run("cmake", "--install", folder / "build", "--prefix", folder / "installed")
-    return folder / "installed"
 
 
 @pytest.fixture(scope="session")
@@ -130,7 +110,8 @@ def test_pkg_config_fortran(built, prefix, tmp_path, fortran):
 
 
 def _build_with_pkg_config(command: list[str], options: str, prefix: Path, folder: Path) -> None:
-    line = f"{' '.join(command)} -o host $(pkg-config {options} usersub)"
+    # Without eval, a shell splits folders at their blanks although pkg-config has quoted them.
+    line = f'eval "{" ".join(command)} -o host $(pkg-config {options} usersub)"'
     env = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")}
     _run("sh", "-c", line, cwd=folder, env=env)
 

@@ -154,7 +154,8 @@ def test_wrap_list_is_complete(runtime: Path):
 
     library = ctypes.CDLL(str(runtime))
     assert all(hasattr(library, f"__wrap_{name}") for name in _WRAPPED)
-    source = (_ROOT / "csrc/runtime/stop.c").read_text(encoding="utf-8")
+    files = ("stop.c", "units.c")
+    source = "".join((_ROOT / "csrc/runtime" / f).read_text(encoding="utf-8") for f in files)
     assert set(re.findall(r"USUB_UTILITY .*\b__wrap_(\w+)\(", source)) == set(_WRAPPED)
 
 

@@ -26,6 +26,7 @@ _OPTIONAL = ("library", "generation", "error")
 
 _HEAD = """\
 !> The C interface of usersub for Fortran hosts; see usersub.h for what each function does.
+!! Fortran 2018: arguments of C functions are optional.
 !!
 !! Handles are values of the types usub_routine, usub_scene and usub_driver. Text that goes in ends
 !! with c_null_char: status = usub_bind(driver, "normal_force"//c_null_char, c_loc(f), n);

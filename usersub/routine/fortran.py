@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,7 +15,6 @@ from usersub.routine import (
     fortran_text,
     needs,
     objects,
-    units,
 )
 from usersub.routine.build import Build
 from usersub.routine.fortran_attempts import first_that_works, flags
@@ -83,10 +81,6 @@ def _compile(
         if any(s.code.startswith("entry") for unit in heads for s in unit.statements):
             # gfortran describes the functions of a unit with ENTRY without their arguments.
             found = {symbol: s for symbol, s in found.items() if s.parameters}
-        parts, flags_of_link = [part], base.link_flags
-        if contents.writes_units and sys.platform != "darwin":
-            parts.append(units.watch(compiler, folder))
-            flags_of_link += units.WATCH_FLAGS
         result = Build(
             library=target,
             source=source,
@@ -99,7 +93,7 @@ def _compile(
             unused=needs.unused_in_fortran(outcome.text, heads, found),
             shared=contents.shared,
             writes_units=contents.writes_units,
-            absent=build.link(compiler, source, parts, flags_of_link, target),
+            absent=build.link(compiler, source, [part], base.link_flags, target),
         )
         build.remember(result)
         return result

@@ -127,8 +127,6 @@ class _Unit:
 
 
 _units: list[_Unit] = []
-#: Functions that end statements which a routine left half done, by library.
-_recover: dict[str, Callable[[], object]] = {}
 
 
 def connect_units(loaded: ctypes.CDLL) -> None:
@@ -142,17 +140,12 @@ def connect_units(loaded: ctypes.CDLL) -> None:
             helper = ctypes.CDLL(str(units.connector()), mode=os.RTLD_LOCAL | os.RTLD_NOW)
             _units.extend(_Unit(helper, number) for number in _UNITS)
             atexit.register(after_call)
-        recover = getattr(loaded, units.RECOVER, None)
-        if recover is not None:
-            _recover[loaded._name] = recover
 
 
 def after_call() -> None:
     """Hands new lines on units 6 and 7 to the receiver; what a routine with output gives to
     `Routine.after_call`."""
     with _lock:
-        for recover in _recover.values():
-            recover()
         for unit in _units:
             for line in unit.lines():
                 _say(0, line)
