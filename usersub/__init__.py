@@ -23,6 +23,7 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from usersub import deck as deck
     from usersub.driver import make as driver
     from usersub.driver.coefficient import CoefficientDriver as CoefficientDriver
     from usersub.driver.explicit import ExplicitDriver as ExplicitDriver
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from usersub.errors import AbiError as AbiError
     from usersub.errors import CompileError as CompileError
     from usersub.errors import ContractError as ContractError
+    from usersub.errors import DeckError as DeckError
     from usersub.errors import Error as Error
     from usersub.errors import LoadError as LoadError
     from usersub.errors import MissingTool as MissingTool
@@ -56,6 +58,7 @@ _HOME = {
     "CoefficientDriver": "driver.coefficient",
     "CompileError": "errors",
     "ContractError": "errors",
+    "DeckError": "errors",
     "Error": "errors",
     "ExplicitDriver": "driver.explicit",
     "LoadError": "errors",
@@ -85,6 +88,7 @@ __all__ = [
     "CoefficientDriver",
     "CompileError",
     "ContractError",
+    "DeckError",
     "Error",
     "ExplicitDriver",
     "LoadError",
@@ -97,6 +101,7 @@ __all__ = [
     "StandardDriver",
     "StateError",
     "__version__",
+    "deck",
     "driver",
     "fric",
     "fric_coef",
@@ -119,6 +124,8 @@ def __getattr__(name: str) -> object:
         value: object = version("usersub")
     elif name == "driver":
         value = importlib.import_module("usersub.driver")
+    elif name == "deck":
+        value = importlib.import_module("usersub.deck")
     elif name in _HOME:
         value = getattr(importlib.import_module(f"usersub.{_HOME[name]}"), name)
     else:

@@ -48,5 +48,23 @@ class ContractError(RoutineError):
     """User code broke a rule of its interface."""
 
 
+class DeckError(Error, ValueError):
+    """An input deck says what cannot be.
+
+    Attributes:
+        file: name of the deck or of a file that it includes.
+        line: number of the line, from one; 0 where the file as a whole is meant.
+        reason: the sentence without the place.
+    """
+
+    def __init__(self, file: str, line: int, reason: str) -> None:
+        super().__init__(file, line, reason)
+        self.file, self.line, self.reason = file, line, reason
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}" if self.line else self.file
+        return f"{place}: {self.reason}"
+
+
 class StateError(Error, ValueError):
     """Saved state does not fit: version, byte order, sizes or check sum."""

@@ -55,7 +55,10 @@ function(usersub_add_routine name)
 
   file(STRINGS "${include_dir}/usersub/wrap.txt" wrapped REGEX "^[A-Za-z_]")
   list(TRANSFORM wrapped PREPEND "LINKER:--wrap=")
-  target_link_options(${name} PRIVATE "LINKER:-Bsymbolic" ${wrapped})
+  # The library of gfortran is needed even if all that is called of it is wrapped.
+  target_link_options(
+    ${name} PRIVATE "LINKER:-Bsymbolic" ${wrapped}
+    "$<$<LINK_LANGUAGE:Fortran>:LINKER:--no-as-needed>")
 endfunction()
 
 # Says which language a source needs; CMake itself would only say that it knows no link language.

@@ -29,4 +29,4 @@ def test_named_files_exist(page):
 def test_no_trademark_and_no_machine(page):
     text = page.read_text(encoding="utf-8")
     assert not re.search(r"abaqus|simulia|dassault", text, re.IGNORECASE)
-    assert not re.search(r"/tmp/|/work/|/root/", text)
+    assert not re.search(r"/tmp/|/home/|/root/", text)

@@ -29,6 +29,7 @@ usersub_add_routine(two two_constants.f90 law.f90 scale.c)
 usersub_add_routine(with_folder with_folder.f)
 target_include_directories(with_folder PRIVATE folder)
 usersub_add_routine(throws throws.cpp)
+usersub_add_routine(reads reads.f)
 """
 
 # Prints the coefficient at slip rate 2, or what went wrong; what a host catches is printed as such.
@@ -99,6 +100,23 @@ WITH_FOLDER = """\
       END
 """
 
+# Reads a file that is not there, where the pressure is negative.
+READS = """\
+      SUBROUTINE VFRIC_COEF(FCOEF, FCOEFDERIV, NBLOCK, NPROPS, NTEMP,
+     1 NFIELDS, JFLAGS, RDATA, SURFINT, SURFSLV, SURFMST, PROPS,
+     2 SLIPRATE, PRESSURE, TEMPAVG, FIELDAVG)
+      INCLUDE 'VABA_PARAM.INC'
+      DIMENSION FCOEF(NBLOCK), SLIPRATE(NBLOCK), PRESSURE(NBLOCK)
+      DO 10 K = 1, NBLOCK
+        IF (PRESSURE(K) .LT. 0) THEN
+          OPEN(15, FILE='/there is/no such file', STATUS='OLD')
+        ELSE
+          FCOEF(K) = SLIPRATE(K)
+        END IF
+   10 CONTINUE
+      END
+"""
+
 THROWS = """\
 #include <stdexcept>
 #include <string>
@@ -141,6 +159,7 @@ def project(prefix: Path, fortran: str, tmp_path_factory: pytest.TempPathFactory
         "with_folder.f": WITH_FOLDER,
         "folder/factor.inc": "      PARAMETER (FACTOR = 3D0)\n",
         "throws.cpp": THROWS,
+        "reads.f": READS,
     }.items():
         (folder / name).write_text(text)
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
@@ -153,7 +172,13 @@ def project(prefix: Path, fortran: str, tmp_path_factory: pytest.TempPathFactory
 @pytest.mark.parametrize(
     ("library", "answer"),
     # One: 4 (0.25 + 2), two: 4 (0.25 + 2 * 2), with the module of its own; folder: 3 * 2.
-    [("one", "OK 9 "), ("two", "OK 17 "), ("with_folder", "OK 6 "), ("throws", "OK 0.25 ")],
+    [
+        ("one", "OK 9 "),
+        ("two", "OK 17 "),
+        ("with_folder", "OK 6 "),
+        ("throws", "OK 0.25 "),
+        ("reads", "OK 2 "),
+    ],
 )
 def test_routines_of_several_files(project, library, answer):
     assert _done(project / "host", project / f"lib{library}.so") == answer + "\n"
@@ -180,6 +205,18 @@ def test_a_cxx_exception_does_not_pass_through_to_a_cxx_host(project, prefix, tm
     _done("c++", source, "-o", tmp_path / "host", "-I", prefix / "include", *library)
     printed = _done(tmp_path / "host", project / "libthrows.so", "negative")
     assert printed.startswith("ROUTINE_RAISED 0 VFRIC_COEF: the routine ended with ")
+
+
+def test_an_error_of_fortran_input_is_a_status(project, fortran, prefix, tmp_path):
+    """Whether the library was built by the function of the package or by others."""
+    field = prefix / "include/usersub/field/double"
+    source, plain = project.parent / "reads.f", tmp_path / "plain.so"
+    _done(fortran, "-shared", "-fPIC", f"-I{field}", source, "-o", plain)
+    for library in (project / "libreads.so", plain):
+        printed = _done(project / "host", library, "negative")
+        assert printed.startswith("ROUTINE_STOPPED 0 VFRIC_COEF: the routine ended with ")
+        assert "Cannot open file '/there is/no such file'" in printed
+        assert "reads.f, line 8)" in printed
 
 
 def test_a_missing_language_is_named(prefix, tmp_path):

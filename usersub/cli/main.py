@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line: `usersub demo | run | info | new | abi | paths`."""
+"""The command line: `usersub demo | run | deck | info | new | abi | paths`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from usersub.cli.interrupt import end_when_interrupted
 _LAZY = {
     "demo": ("usersub.cli.demo", "Run problems with known answers through every interface."),
     "run": ("usersub.cli.run", "Run a scene file: a routine through a history or a problem."),
+    "deck": ("usersub.cli.deck", "Tell what an input deck says of friction, and what runs."),
     "info": ("usersub.cli.info", "Tell what a routine file holds, uses and writes."),
     "new": ("usersub.cli.new", "Make a routine, a test and a scene that run at once."),
     "abi": ("usersub.cli.abi", "Print the argument lists of the interfaces."),

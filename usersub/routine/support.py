@@ -34,7 +34,9 @@ class Support:
         if sys.platform == "darwin":
             return ("-dynamiclib", *library)
         wraps = tuple(f"-Wl,--wrap={name}" for name in self.wrapped)
-        return ("-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", *wraps, *library, "-lm")
+        # gfortran's library is needed even if all that is called of it is wrapped.
+        shared = ("-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-Wl,--no-as-needed")
+        return (*shared, *wraps, *library, "-lm")
 
 
 def support() -> Support:

@@ -21,8 +21,10 @@
  * is the last index, node numbers count from one.
  *
  * Every function that can fail returns a status of `status.h`: 0 success, positive "valid outputs,
- * but the host should act", negative "nothing has changed". No function prints, exits, or keeps
- * global state, except for the fault handlers that `usub_catch_faults` installs when asked.
+ * but the host should act", negative "state, and arrays that are added to, are as before the call;
+ * outputs are not defined". No function prints or exits. Global to the process are only the fault
+ * handlers that `usub_catch_faults` installs when asked, the receiver of messages, and what the
+ * utility routines keep for user code (job name, mutexes, allocatable arrays).
  * A driver may be used by one thread at a time; different drivers are independent.
  */
 #ifndef USERSUB_USERSUB_H
@@ -133,12 +135,15 @@ int32_t usub_driver_create(const char *kind, const usub_routine *routine, const 
                            usub_driver **driver, usub_error *error);
 void usub_driver_free(usub_driver *driver);
 
-/** Binds a host array by name; `count` is its number of elements, `data` NULL unbinds.
+/** Binds a host array by name; `count` is its number of elements, `data` NULL unbinds. An array
+ * without elements counts as not bound.
  * The memory stays the host's and has to live until it is unbound or the driver freed. */
 int32_t usub_bind(usub_driver *driver, const char *array, void *data, size_t count);
-/** Memory and size of an array of any role: the host's if bound, else the driver's own. */
+/** Memory and size of an array of any role: the host's if bound, else the driver's own; NULL and 0
+ * if there is none. Writing to state between increments sets initial conditions. */
 int32_t usub_array(usub_driver *driver, const char *array, void **data, size_t *count);
-/** Sets how many of the N points are present now (0 ... N). Bound arrays keep their full size. */
+/** Sets how many of the N points are present now (0 ... N). Bound arrays keep their full size;
+ * points that are absent from a step or a committed increment count as open. */
 int32_t usub_set_points(usub_driver *driver, int32_t points);
 /** Sets step and increment number and the times; all at the end of the increment. */
 int32_t usub_set_time(usub_driver *driver, int32_t step, int32_t increment, double step_time,
@@ -171,8 +176,9 @@ int32_t usub_evaluate(usub_driver *driver);
 
 /** Bytes that `usub_state_save` writes. */
 size_t usub_state_size(const usub_driver *driver);
-/** Writes the committed state: versioned, with a check sum, in the byte order of the machine,
- * which the header records. */
+/** Writes the state of the last accepted increment, with its times: versioned, with a check sum, in
+ * the byte order of the machine, which the header records. How many points are present is the
+ * host's to keep. */
 int32_t usub_state_save(const usub_driver *driver, void *buffer, size_t size);
 /** Reads a saved state; refuses (and changes nothing) unless version, byte order, interface,
  * sizes and check sum fit. */
@@ -184,7 +190,8 @@ const char *usub_message(const usub_driver *driver);
 /** Contact point (from 0) of the last failure, -1 if none is known. */
 int32_t usub_failed_point(const usub_driver *driver);
 /** Runs the block of the last failure again through `entry` (block style) on scratch state, so that
- * a slower twin of the routine can say more. */
+ * a slower twin of the routine can say more. Only right after the failure: WRONG_ORDER if something
+ * was bound or set since. */
 int32_t usub_replay(usub_driver *driver, usub_entry entry);
 
 /** Number of plan lines (arguments of the interface). */

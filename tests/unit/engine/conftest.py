@@ -51,12 +51,15 @@ def full_probe_library(tmp_path_factory: pytest.TempPathFactory):
 
 
 @pytest.fixture
-def probe(request, full_probe_library):
-    """Makes a recording routine: `probe(style, interface, precision, generation, act)`."""
+def probe(full_probe_library):
+    """Makes a recording routine: `probe(style, interface, ...)`, see `engine_probe.make_probe`."""
     from engine_probe import make_probe
+
+    alive = []  # C code has no reference to the callbacks
 
     def make(style: str, interface: str, **options):
         library = full_probe_library(interface) if style == "full" else None
-        return make_probe(style, interface, library=library, **options)
+        alive.append(make_probe(style, interface, library=library, **options))
+        return alive[-1]
 
     return make

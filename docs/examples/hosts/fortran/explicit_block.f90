@@ -66,6 +66,7 @@ program explicit_block
   call usub_driver_free(driver)
   call usub_scene_free(scene)
   call usub_routine_free(routine)
+  deallocate (library, interface, props) ! a main program's own are kept otherwise
 
 contains
   ! Text for C ends in a NUL character.
