@@ -72,13 +72,7 @@ static int32_t take_constraint(usub_driver *driver, usub_call *call, const usub_
                            "FRIC: multiplier of point %d is not finite, but the routine returned "
                            "LM = 1",
                            p);
-  memset(at->dslip + i * F, 0, F * sizeof(double));
-  if (at->ddtddg)
-    memset(at->ddtddg + i * F * F, 0, F * F * sizeof(double));
-  if (at->ddtddp)
-    memset(at->ddtddp + i * F, 0, F * sizeof(double));
-  if (at->ddtddt)
-    memset(at->ddtddt + i * F * 2, 0, F * 2 * sizeof(double));
+  usub_clear_slip_and_tangent(at, driver->size.F, p);
   at->sed[i] = sticks ? at->committed_sed[i] : 0;
   at->sfd[i] = 0;
   return USUB_OK;

@@ -88,10 +88,8 @@ usub_point_arrays usub_point_arrays_of(const usub_driver *driver) {
   };
 }
 
-/* Clears what a point returns; committed values where the rules ask for them. */
-static void reset_point(usub_driver *driver, const usub_point_arrays *at, int32_t p) {
-  const size_t F = (size_t)driver->size.F, S = (size_t)driver->size.S, i = (size_t)p;
-  memset(at->tau + i * F, 0, F * sizeof(double));
+void usub_clear_slip_and_tangent(const usub_point_arrays *at, int32_t directions, int32_t p) {
+  const size_t F = (size_t)directions, i = (size_t)p;
   memset(at->dslip + i * F, 0, F * sizeof(double));
   if (at->ddtddg)
     memset(at->ddtddg + i * F * F, 0, F * F * sizeof(double));
@@ -99,6 +97,13 @@ static void reset_point(usub_driver *driver, const usub_point_arrays *at, int32_
     memset(at->ddtddp + i * F, 0, F * sizeof(double));
   if (at->ddtddt)
     memset(at->ddtddt + i * F * 2, 0, F * 2 * sizeof(double));
+}
+
+/* Clears what a point returns; committed values where the rules ask for them. */
+static void reset_point(usub_driver *driver, const usub_point_arrays *at, int32_t p) {
+  const size_t F = (size_t)driver->size.F, S = (size_t)driver->size.S, i = (size_t)p;
+  memset(at->tau + i * F, 0, F * sizeof(double));
+  usub_clear_slip_and_tangent(at, driver->size.F, p);
   at->sed[i] = at->sfd[i] = 0;
   if (S)
     memcpy(driver->last.trial_state + i * S, at->state + i * S, S * sizeof(double));

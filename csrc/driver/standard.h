@@ -23,6 +23,8 @@ typedef struct usub_point_arrays {
 } usub_point_arrays;
 
 usub_point_arrays usub_point_arrays_of(const usub_driver *driver);
+/** DSLIP and the tangents of a point that has none of its own: open, or constrained by the host. */
+void usub_clear_slip_and_tangent(const usub_point_arrays *at, int32_t directions, int32_t p);
 
 static inline int usub_is_fric(const usub_driver *driver) {
   return usub_interface_key(driver->face) == USUB_INTERFACE_FRIC;
