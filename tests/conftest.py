@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import shutil
 
+import mpmath
 import pytest
 from hypothesis import settings
 
@@ -14,6 +15,9 @@ settings.register_profile("usersub", deadline=None, print_blob=True, max_example
 settings.load_profile("usersub")
 
 _NO_FORTRAN = "gfortran is missing; install it, for example with `apt-get install gfortran`"
+
+#: Digits of every truth, once: a module that set its own would change those of the others.
+mpmath.mp.dps = 60
 
 
 def _forbid_skips() -> bool:

@@ -9,8 +9,6 @@ from mpmath import mp, mpf
 
 from usersub.problems import p1, p2, p4
 
-mp.dps = 40
-
 #: Data of the block as decimal numbers, not as binary ones.
 _DENSITY, _PRESSURE, _V0 = mpf("7.3e-4"), mpf(2000), mpf(200)
 _MASS, _AREA = _DENSITY * 5, mpf(5)

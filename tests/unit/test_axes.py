@@ -13,8 +13,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-mpmath.mp.dps = 60
-
 
 @dataclass(frozen=True)
 class Axes:

@@ -19,7 +19,6 @@ from hypothesis import strategies as st
 
 from usersub.statuses import STATUSES
 
-mpmath.mp.dps = 60
 mpf = mpmath.mpf
 CODE = {status.name: status.value for status in STATUSES}
 real2, real6 = ctypes.c_double * 2, ctypes.c_double * 6

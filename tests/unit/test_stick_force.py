@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from usersub.statuses import STATUSES
 
-mpmath.mp.dps = 60
 CODE = {status.name: status.value for status in STATUSES}
 PRECISIONS = {
     "double": (np.float64, ctypes.c_double, ""),
