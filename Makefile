@@ -2,7 +2,7 @@
 # Task runner. `make build PYTHON=/path/to/python` works in another environment.
 PYTHON ?= python
 PYTEST_ARGS ?=
-C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h)
+C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h csrc/include/usersub/law/*.h)
 
 .PHONY: help build gen check-gen test lint format docs bench problems clean
 
@@ -38,8 +38,9 @@ docs: ## build the documentation, warnings are errors
 bench: ## run the benchmarks and write their table
 	$(PYTHON) -m tests.benchmarks
 
-problems: ## measure the problems with known answers and write their page
+problems: ## measure the problems with known answers and write their pages
 	$(PYTHON) -m usersub.problems --markdown docs/explanation/problems.md
+	$(PYTHON) -m usersub.problems --newton docs/explanation/newton.md
 
 clean: ## remove what was built
 	rm -rf build dist docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis

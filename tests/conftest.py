@@ -36,12 +36,19 @@ def fortran() -> str:
 @pytest.fixture(autouse=True, scope="session")
 def _own_cache(tmp_path_factory: pytest.TempPathFactory):
     """Keeps compiled user code of the tests out of the user's cache."""
-    folder = tmp_path_factory.mktemp("usersub-cache")
+    folder = _shared_folder(tmp_path_factory)
     before = os.environ.get("USERSUB_CACHE")
     os.environ.setdefault("USERSUB_CACHE", str(folder))
     yield
     if before is None:
         del os.environ["USERSUB_CACHE"]
+
+
+def _shared_folder(tmp_path_factory: pytest.TempPathFactory):
+    """One folder for all processes of a run in parallel (pytest -n)."""
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return tmp_path_factory.mktemp("usersub-cache")
+    return tmp_path_factory.getbasetemp().parent / "usersub-cache"
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from usersub import deck as deck
+    from usersub import laws as laws
     from usersub.driver import make as driver
     from usersub.driver.coefficient import CoefficientDriver as CoefficientDriver
     from usersub.driver.explicit import ExplicitDriver as ExplicitDriver
@@ -41,6 +42,14 @@ if TYPE_CHECKING:
     from usersub.errors import RoutineError as RoutineError
     from usersub.errors import SceneError as SceneError
     from usersub.errors import StateError as StateError
+    from usersub.interaction import Amplitude as Amplitude
+    from usersub.interaction import Change as Change
+    from usersub.interaction import Friction as Friction
+    from usersub.interaction import Interaction as Interaction
+    from usersub.lift import LawFunction as LawFunction
+    from usersub.lift import coefficient as coefficient
+    from usersub.lift import strength as strength
+    from usersub.lift import traction as traction
     from usersub.routine.loading import RoutineFile as RoutineFile
     from usersub.routine.loading import load as load
     from usersub.routine.messages import messages_to as messages_to
@@ -55,12 +64,17 @@ if TYPE_CHECKING:
 
 _HOME = {
     "AbiError": "errors",
+    "Amplitude": "interaction",
+    "Change": "interaction",
     "CoefficientDriver": "driver.coefficient",
     "CompileError": "errors",
     "ContractError": "errors",
     "DeckError": "errors",
     "Error": "errors",
     "ExplicitDriver": "driver.explicit",
+    "Friction": "interaction",
+    "Interaction": "interaction",
+    "LawFunction": "lift",
     "LoadError": "errors",
     "MissingTool": "errors",
     "Routine": "routine.routine",
@@ -70,6 +84,7 @@ _HOME = {
     "SceneError": "errors",
     "StandardDriver": "driver.standard",
     "StateError": "errors",
+    "coefficient": "lift",
     "fric": "routine.python",
     "fric_coef": "routine.python",
     "from_pointer": "routine.pointers",
@@ -78,6 +93,8 @@ _HOME = {
     "run_scene": "scenefile",
     "stick_force_kinematic": "driver.stick_force",
     "stick_force_penalty": "driver.stick_force",
+    "strength": "lift",
+    "traction": "lift",
     "vfric": "routine.python",
     "vfric_coef": "routine.python",
     "vfriction": "routine.python",
@@ -85,12 +102,17 @@ _HOME = {
 
 __all__ = [
     "AbiError",
+    "Amplitude",
+    "Change",
     "CoefficientDriver",
     "CompileError",
     "ContractError",
     "DeckError",
     "Error",
     "ExplicitDriver",
+    "Friction",
+    "Interaction",
+    "LawFunction",
     "LoadError",
     "MissingTool",
     "Routine",
@@ -101,16 +123,20 @@ __all__ = [
     "StandardDriver",
     "StateError",
     "__version__",
+    "coefficient",
     "deck",
     "driver",
     "fric",
     "fric_coef",
     "from_pointer",
+    "laws",
     "load",
     "messages_to",
     "run_scene",
     "stick_force_kinematic",
     "stick_force_penalty",
+    "strength",
+    "traction",
     "vfric",
     "vfric_coef",
     "vfriction",
@@ -124,8 +150,8 @@ def __getattr__(name: str) -> object:
         value: object = version("usersub")
     elif name == "driver":
         value = importlib.import_module("usersub.driver")
-    elif name == "deck":
-        value = importlib.import_module("usersub.deck")
+    elif name in ("deck", "laws"):
+        value = importlib.import_module(f"usersub.{name}")
     elif name in _HOME:
         value = getattr(importlib.import_module(f"usersub.{_HOME[name]}"), name)
     else:

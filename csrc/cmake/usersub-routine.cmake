@@ -11,7 +11,8 @@ set_property(GLOBAL PROPERTY USERSUB_INCLUDE_DIR "${USERSUB_INCLUDE_DIR}")
 # have to be enabled in the project. A Fortran file that uses a module may stand beside the module's
 # file. SINGLE builds for single precision (explicit interfaces). Include folders and further
 # options are added to the target <name> as usual. STOP, exit and abort in the sources return to the
-# driver instead of ending the program.
+# driver instead of ending the program. A C law that defines USUB_LAW_DUAL is compiled once more, as
+# C++, for its derivatives.
 function(usersub_add_routine name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "SINGLE" "" "")
   set(sources ${arg_UNPARSED_ARGUMENTS})
@@ -19,7 +20,16 @@ function(usersub_add_routine name)
     message(FATAL_ERROR "usersub_add_routine(${name}) needs at least one source file")
   endif()
   usersub_check_languages(${name} ${sources})
-  add_library(${name} MODULE ${sources})
+  set(readings "")
+  if(NOT arg_SINGLE)
+    usersub_second_readings(readings ${name} ${sources})
+  endif()
+  add_library(${name} MODULE ${sources} ${readings})
+  if(readings AND NOT sources MATCHES "\\.(cpp|cc|cxx|c\\+\\+)(;|$)")
+    # They need nothing of the C++ library.
+    usersub_link_language(language ${sources})
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE ${language})
+  endif()
   set(precision double)
   if(arg_SINGLE)
     set(precision single)
@@ -59,6 +69,50 @@ function(usersub_add_routine name)
   target_link_options(
     ${name} PRIVATE "LINKER:-Bsymbolic" ${wrapped}
     "$<$<LINK_LANGUAGE:Fortran>:LINKER:--no-as-needed>")
+endfunction()
+
+# In `result` the files that read laws which define USUB_LAW_DUAL a second time.
+function(usersub_second_readings result name)
+  set(made "")
+  foreach(source IN LISTS ARGN)
+    get_filename_component(path "${source}" ABSOLUTE)
+    if(NOT source MATCHES "\\.(c|cpp|cc|cxx|c\\+\\+)$" OR NOT EXISTS "${path}")
+      continue()
+    endif()
+    # The line may come and go.
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
+    file(STRINGS "${path}" found REGEX "^[ \t]*#[ \t]*define[ \t]+USUB_LAW_DUAL" LIMIT_COUNT 1)
+    if(NOT found)
+      continue()
+    endif()
+    get_property(enabled GLOBAL PROPERTY ENABLED_LANGUAGES)
+    if(NOT "CXX" IN_LIST enabled)
+      message(
+        FATAL_ERROR "usersub_add_routine(${name}): ${source} defines USUB_LAW_DUAL, so its "
+                    "derivatives need the language CXX; write enable_language(CXX) before, or name "
+                    "it in project()")
+    endif()
+    get_filename_component(stem "${source}" NAME)
+    set(reading "${CMAKE_CURRENT_BINARY_DIR}/${name}_dual/${stem}.cpp")
+    file(
+      CONFIGURE
+      OUTPUT "${reading}"
+      CONTENT "#define USUB_DUAL_PASS\n#include \"@path@\"\n"
+      @ONLY)
+    set_property(
+      SOURCE "${reading}"
+      PROPERTY COMPILE_OPTIONS -std=gnu++17 -fno-exceptions -fno-rtti)
+    list(APPEND made "${reading}")
+  endforeach()
+  set(${result} "${made}" PARENT_SCOPE)
+endfunction()
+
+# In `result` the language whose compiler links C and Fortran sources.
+function(usersub_link_language result)
+  set(${result} C PARENT_SCOPE)
+  if("${ARGN}" MATCHES "\\.(f|for|ftn|f77|f90|f95|f03|f08|F|FOR|F77|F90|F95|F03|F08)(;|$)")
+    set(${result} Fortran PARENT_SCOPE)
+  endif()
 endfunction()
 
 # Says which language a source needs; CMake itself would only say that it knows no link language.

@@ -106,13 +106,7 @@ static int32_t check_interface(const usub_driver *driver, usub_error *error) {
                           "%s returns one coefficient; scene setting 'anisotropic' = 1 needs "
                           "FRIC_COEF of generation 2022",
                           driver->title);
-  if (driver->kind == USUB_KIND_OF_STANDARD && strcmp(driver->face->name, "fric_coef") == 0 &&
-      !(usub_critical_elastic_slip(set) > 0))
-    return usub_error_set(error, USUB_BAD_ARGUMENT,
-                          "FRIC_COEF: penalty enforcement needs the scene setting 'elastic_slip', "
-                          "or 'characteristic_length' (times 'slip_tolerance' = %g)",
-                          set->slip_tolerance);
-  return USUB_OK;
+  return usub_check_enforcement(driver, error);
 }
 
 static void set_sizes(usub_driver *driver) {
@@ -198,11 +192,16 @@ static int32_t make_constants(usub_driver *driver) {
   }
   if (driver->threads > 1 && !(driver->pool = usub_pool_create(driver->threads)))
     return USUB_NO_MEMORY;
+  if (driver->kind == USUB_KIND_OF_EXPLICIT)
+    return usub_explicit_create(driver);
   return driver->kind == USUB_KIND_OF_STANDARD ? usub_standard_create(driver) : USUB_OK;
 }
 
 static int32_t fill_driver(usub_driver *driver, const usub_scene *scene, usub_error *error) {
   driver->set = scene->settings;
+  driver->enforcement = usub_enforcement_of(&driver->set);
+  if (driver->kind == USUB_KIND_OF_EXPLICIT)
+    driver->enforcement = usub_explicit_enforcement(driver);
   driver->single = strcmp(scene->settings.precision, "single") == 0;
   if (driver->kind == USUB_KIND_OF_EXPLICIT) {
     driver->analytical = strcmp(scene->settings.contact, "analytical-rigid") == 0;
@@ -273,6 +272,7 @@ void usub_driver_free(usub_driver *driver) {
   usub_calls_free(driver);
   usub_slots_free(driver);
   usub_standard_free(driver);
+  usub_explicit_free(driver);
   usub_nothing_free(driver);
   usub_props_free(driver);
   free(driver->ones);

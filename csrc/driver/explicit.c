@@ -17,12 +17,18 @@
 
 #define R double
 #define SUFFIX(name) name##_d
+#include "explicit_enforce.inc"
+
 #include "explicit_block.inc"
+#include "explicit_finish.inc"
 #undef R
 #undef SUFFIX
 #define R float
 #define SUFFIX(name) name##_f
+#include "explicit_enforce.inc"
+
 #include "explicit_block.inc"
+#include "explicit_finish.inc"
 #undef R
 #undef SUFFIX
 
@@ -76,6 +82,11 @@ int32_t usub_step(usub_driver *driver) {
     status = check_all_nodes(driver);
   if (!status)
     status = usub_check_whole_inputs(driver);
+  if (!status && usub_needs_time(driver) && !(driver->clock.time[2] > 0))
+    status = usub_fail(driver, USUB_BAD_INPUT,
+                       "%s: the time increment is 0; kinematic enforcement and tangential damping "
+                       "need one above 0",
+                       driver->title);
   if (status)
     return status;
   usub_state_keep(driver);
@@ -90,6 +101,12 @@ int32_t usub_step(usub_driver *driver) {
     finish_d(driver);
   driver->accepted = driver->clock;
   return USUB_OK;
+}
+
+double usub_elastic_energy(const usub_driver *driver) {
+  if (!driver || driver->kind != USUB_KIND_OF_EXPLICIT || !usub_is_elastic(driver))
+    return 0.0;
+  return driver->single ? elastic_energy_f(driver) : elastic_energy_d(driver);
 }
 
 double usub_dissipation(const usub_driver *driver) {

@@ -33,4 +33,18 @@ static inline size_t usub_force_column(const usub_driver *driver, int32_t point)
   return node ? (size_t)node[point] - 1 : (size_t)point;
 }
 
+/** VFRIC_COEF by penalty: the driver keeps elastic slips. */
+static inline int usub_is_elastic(const usub_driver *driver) {
+  return driver->enforcement == USUB_ENFORCE_PENALTY && usub_is_coefficient(driver);
+}
+
+/** Whether something is divided by the time increment. */
+static inline int usub_needs_time(const usub_driver *driver) {
+  return driver->enforcement == USUB_ENFORCE_KINEMATIC || driver->set.damping > 0;
+}
+
+/* explicit_enforcement.c */
+/** Keeps conditions, elastic slips and normals of an increment that has succeeded. */
+void usub_explicit_keep(usub_driver *driver);
+
 #endif

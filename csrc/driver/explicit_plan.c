@@ -22,6 +22,18 @@ static void put_optional(usub_driver *driver, int32_t position, const char *arra
     usub_put_absent(driver, position, driver->size.real, absent);
 }
 
+/* The stick force: the host's, or what the driver makes of the scene. */
+static void put_stick_force(usub_driver *driver, int32_t position) {
+  usub_put_array(driver, position, "stick_force", NULL);
+  usub_source *source = &driver->sources[position];
+  if (driver->enforcement == USUB_ENFORCE_DEFAULT || source->from == USUB_LEFT_OUT)
+    return;
+  source->what = "computed";
+  source->why = driver->enforcement == USUB_ENFORCE_KINEMATIC
+                    ? "kinematic: mass times predicted velocity by time increment"
+                    : "penalty: length of the elastic trial force";
+}
+
 /* Fields of one side, which VFRIC wants with the point first. */
 static void put_fields(usub_driver *driver, int32_t position, const char *array, size_t bytes,
                        const char *absent) {
@@ -90,7 +102,7 @@ static void plan_vfric(usub_driver *driver) {
     usub_put_absent(driver, USUB_VFRIC_SHAPE, 0, no_facets);
   }
   usub_put_scratch(driver, USUB_VFRIC_DSLIPFRIC, vector, 0, "computed", "length of the slip");
-  usub_put_array(driver, USUB_VFRIC_FSTICKFORCE, "stick_force", NULL);
+  put_stick_force(driver, USUB_VFRIC_FSTICKFORCE);
   usub_put_scratch(driver, USUB_VFRIC_FTANGPREV, vector, 0, "computed",
                    "rotated to the local axes");
   usub_put_array(driver, USUB_VFRIC_FNORMAL, "normal_force", NULL);
@@ -163,7 +175,7 @@ static void plan_vfriction(usub_driver *driver) {
   usub_put_array(driver, USUB_VFRICTION_JCONSECUID, "secondary_node", NULL);
   usub_put_array(driver, USUB_VFRICTION_JCONMAINUID, "main_node", NULL);
   usub_put_scratch(driver, USUB_VFRICTION_DSLIPFRIC, vector, 0, "computed", "length of the slip");
-  usub_put_array(driver, USUB_VFRICTION_FSTICKFORCE, "stick_force", NULL);
+  put_stick_force(driver, USUB_VFRICTION_FSTICKFORCE);
   usub_put_scratch(driver, USUB_VFRICTION_FTANGPREV, vector, 0, "computed",
                    "rotated to the local axes");
   usub_put_array(driver, USUB_VFRICTION_FNORMAL, "normal_force", NULL);
@@ -193,7 +205,9 @@ static void plan_vfric_coef(usub_driver *driver) {
   usub_put_array(driver, USUB_VFRIC_COEF_FCOEF, "coefficient", NULL);
   usub_put_scratch(driver, USUB_VFRIC_COEF_FCOEFDERIV, 3 * real, 0, "output",
                    "not used by explicit hosts");
-  usub_put_scratch(driver, USUB_VFRIC_COEF_SLIPRATE, real, 0, "computed", "slip by time increment");
+  usub_put_scratch(driver, USUB_VFRIC_COEF_SLIPRATE, real, 0, "computed",
+                   usub_is_elastic(driver) ? "slip by time increment, 0 while a point sticks"
+                                           : "slip by time increment");
   if (usub_data(driver, "area"))
     usub_put_scratch(driver, USUB_VFRIC_COEF_PRESSURE, real, 0, "computed", "normal force by area");
   else
@@ -226,9 +240,19 @@ static void check_own_needs(usub_driver *driver) {
   if (main && !driver->analytical && !usub_data(driver, "shape_main"))
     lacking = "shape_main";
   const char *why = "add forces to the nodes";
-  if (usub_is_coefficient(driver) && !usub_data(driver, "stick_force")) {
+  const int coefficient = usub_is_coefficient(driver), elastic = usub_is_elastic(driver);
+  if (coefficient && !elastic && !usub_data(driver, "stick_force")) {
     lacking = "stick_force";
     why = "bound the friction force";
+  }
+  if (driver->enforcement == USUB_ENFORCE_KINEMATIC && !usub_data(driver, "mass")) {
+    lacking = "mass";
+    why = "compute the stick force";
+  }
+  if (driver->enforcement == USUB_ENFORCE_PENALTY && is_vfric &&
+      !usub_data(driver, "secondary_node")) {
+    lacking = "secondary_node";
+    why = "keep forces by node";
   }
   /* Node number 0 would lead the routine to memory in front of the state variables. */
   if (is_vfric && driver->size.S && usub_used(driver, USUB_VFRIC_STATEV) != 0 &&
@@ -249,9 +273,10 @@ void usub_explicit_plan(usub_driver *driver) {
   else
     plan_vfriction(driver);
   check_own_needs(driver);
-  driver->keeps_force = !usub_is_coefficient(driver) &&
-                        usub_is_live(driver, usub_explicit_positions(driver).previous) &&
-                        !usub_data(driver, "previous_force");
+  const int wanted = driver->enforcement == USUB_ENFORCE_PENALTY ||
+                     usub_is_live(driver, usub_explicit_positions(driver).previous);
+  driver->keeps_force =
+      !usub_is_coefficient(driver) && wanted && !usub_data(driver, "previous_force");
 }
 
 size_t usub_force_bytes(const usub_driver *driver) {

@@ -1,60 +1,67 @@
 /* SPDX-License-Identifier: MIT */
-/* One point of FRIC: what goes in, and what the answer means. */
+/* Points of FRIC: what goes in, and what the answers mean. */
 #include <string.h>
 
 #include "standard.h"
 
-/* LM on entry: the routine's own of the last iteration, or the condition of the last increment. */
-static int32_t lm_on_entry(const usub_driver *driver, const usub_point_arrays *at, int32_t p) {
-  const usub_iteration *last = &driver->last;
-  return last->done && last->closed[p] ? last->lm[p] : at->condition[p];
+/* Empties memory of the worker that the routine may write to. */
+static void empty(usub_driver *driver, const usub_call *call, int32_t position) {
+  if (usub_is_live(driver, position))
+    memset(call->argv[position], 0, (size_t)call->n * driver->sources[position].per_point);
 }
 
 /* What the routine continues from. */
 static void fill_answers(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
-                         int32_t p, int32_t lm) {
+                         int32_t first) {
   const usub_iteration *last = &driver->last;
-  const size_t F = (size_t)driver->size.F, i = (size_t)p;
-  at->lm[i] = lm;
-  memcpy(at->tau + i * F, at->committed_tau + i * F, F * sizeof(double));
-  at->sed[i] = at->committed_sed[i];
-  if (last->done && last->closed[p] && lm == 0)
-    memcpy(at->dslip + i * F, last->dslip + i * F, F * sizeof(double));
+  const size_t F = (size_t)driver->size.F;
+  for (int32_t p = first; p < first + call->n; ++p) {
+    const size_t i = (size_t)p;
+    at->lm[i] = usub_lm_on_entry(driver, at, p);
+    memcpy(at->tau + i * F, at->committed_tau + i * F, F * sizeof(double));
+    at->sed[i] = at->committed_sed[i];
+    if (last->done && last->closed[p] && at->lm[i] == USUB_SLIPPING)
+      memcpy(at->dslip + i * F, last->dslip + i * F, F * sizeof(double));
+  }
   /* Tangents that the host wants were cleared with the point. */
-  if (usub_is_live(driver, USUB_FRIC_DDTDDG))
-    memset(call->argv[USUB_FRIC_DDTDDG], 0, F * F * sizeof(double));
-  if (usub_is_live(driver, USUB_FRIC_DDTDDP))
-    memset(call->argv[USUB_FRIC_DDTDDP], 0, F * sizeof(double));
-  if (usub_is_live(driver, USUB_FRIC_DDTDDT))
-    memset(call->argv[USUB_FRIC_DDTDDT], 0, F * 2 * sizeof(double));
+  empty(driver, call, USUB_FRIC_DDTDDG);
+  empty(driver, call, USUB_FRIC_DDTDDP);
+  empty(driver, call, USUB_FRIC_DDTDDT);
   if (usub_is_live(driver, USUB_FRIC_PNEWDT))
-    *(double *)call->argv[USUB_FRIC_PNEWDT] = USUB_PNEWDT_PRESET;
+    for (int32_t k = 0; k < call->n; ++k)
+      ((double *)call->argv[USUB_FRIC_PNEWDT])[k] = USUB_PNEWDT_PRESET;
 }
 
 /* What the routine is told and the host has in another form. */
-static void fill_point(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
-                       int32_t p, int32_t lm) {
-  const size_t F = (size_t)driver->size.F, P = (size_t)driver->size.P, i = (size_t)p;
+static void fill_points(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
+                        int32_t first) {
+  const size_t F = (size_t)driver->size.F, P = (size_t)driver->size.P;
+  const size_t n = (size_t)call->n, i = (size_t)first;
   if (usub_is_live(driver, USUB_FRIC_TAULM)) {
     double *taulm = call->argv[USUB_FRIC_TAULM];
-    for (size_t a = 0; a < F; ++a)
-      taulm[a] = lm == USUB_STICKING && at->multiplier ? at->multiplier[i * F + a] : 0;
+    for (size_t a = 0; a < n * F; ++a)
+      taulm[a] =
+          at->lm[i + a / F] == USUB_STICKING && at->multiplier ? at->multiplier[i * F + a] : 0;
   }
-  if (usub_is_live(driver, USUB_FRIC_DPRESS))
-    *(double *)call->argv[USUB_FRIC_DPRESS] = at->pressure[i] - at->committed_pressure[i];
-  if (usub_is_live(driver, USUB_FRIC_NODE))
-    *(int32_t *)call->argv[USUB_FRIC_NODE] = p + 1;
+  if (usub_is_live(driver, USUB_FRIC_DPRESS)) {
+    double *dpress = call->argv[USUB_FRIC_DPRESS];
+    for (size_t k = 0; k < n; ++k)
+      dpress[k] = at->pressure[i + k] - at->committed_pressure[i + k];
+  }
+  if (usub_is_live(driver, USUB_FRIC_NODE)) {
+    int32_t *node = call->argv[USUB_FRIC_NODE];
+    for (int32_t k = 0; k < call->n; ++k)
+      node[k] = first + k + 1;
+  }
   if (usub_is_live(driver, USUB_FRIC_TEMP)) {
     double *temp = call->argv[USUB_FRIC_TEMP];
-    temp[0] = at->temperature[0][i];
-    temp[1] = at->temperature[1][i];
+    for (size_t k = 0; k < 2 * n; ++k)
+      temp[k] = at->temperature[k % 2][i + k / 2];
   }
   if (usub_is_live(driver, USUB_FRIC_PREDEF)) {
     double *predef = call->argv[USUB_FRIC_PREDEF];
-    for (size_t j = 0; j < P; ++j) {
-      predef[2 * j] = at->field[0][i * P + j];
-      predef[2 * j + 1] = at->field[1][i * P + j];
-    }
+    for (size_t j = 0; j < 2 * n * P; ++j)
+      predef[j] = at->field[j % 2][i * P + j / 2];
   }
 }
 
@@ -78,9 +85,10 @@ static int32_t take_constraint(usub_driver *driver, usub_call *call, const usub_
   return USUB_OK;
 }
 
-/* Applies the meaning of the answer; refuses what no host could use. */
+/* Applies the meaning of the answer of point `p`, the k-th of the call; refuses what no host could
+ * use. */
 static int32_t take_answer(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                           int32_t index, int32_t p) {
+                           int32_t index, int32_t p, int32_t k) {
   if (usub_used(driver, USUB_FRIC_LM) == 0)
     at->lm[p] = 0; /* a routine that only knows TAU */
   const int32_t lm = at->lm[p];
@@ -89,7 +97,7 @@ static int32_t take_answer(usub_driver *driver, usub_call *call, const usub_poin
                            "FRIC: the routine returned LM = %d at point %d; expected 0, 1 or 2", lm,
                            p);
   if (usub_is_live(driver, USUB_FRIC_PNEWDT)) {
-    const double pnewdt = *(double *)call->argv[USUB_FRIC_PNEWDT];
+    const double pnewdt = ((double *)call->argv[USUB_FRIC_PNEWDT])[k];
     if (!(pnewdt > 0))
       return usub_block_fail(driver, call, index, p, USUB_CONTRACT,
                              "FRIC: the routine returned PNEWDT = %g at point %d; expected a value "
@@ -104,19 +112,33 @@ static int32_t take_answer(usub_driver *driver, usub_call *call, const usub_poin
   return status ? status : usub_check_trial_state(driver, call, index, p);
 }
 
-int32_t usub_fric_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                        int32_t index, int32_t p) {
-  const int32_t lm = lm_on_entry(driver, at, p);
-  usub_aim(driver, call, p, 1);
-  fill_answers(driver, call, at, p, lm);
-  fill_point(driver, call, at, p, lm);
-  int32_t status = usub_check_inputs(driver, call, index, p);
-  if (status)
+int32_t usub_fric_take(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                       int32_t index, int32_t first, int32_t count) {
+  int32_t status = USUB_OK;
+  for (int32_t k = 0; k < count && !status; ++k)
+    status = take_answer(driver, call, at, index, first + k, k);
+  return status;
+}
+
+int32_t usub_fric_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                         int32_t index, int32_t first, int32_t *count) {
+  usub_aim(driver, call, first, *count);
+  fill_answers(driver, call, at, first);
+  fill_points(driver, call, at, first);
+  if (!usub_inputs_are_finite(driver, call)) {
+    *count = 1; /* one by one: points before the one that is refused may fail first */
+    usub_aim(driver, call, first, 1);
+    const int32_t status = usub_check_inputs(driver, call, index, first);
+    if (status)
+      return status;
+  }
+  const int32_t ended = usub_call_routine(driver, call);
+  const int32_t done = call->done;
+  call->done = 0; /* what happens from here on does not happen in the routine */
+  const int32_t status = usub_fric_take(driver, call, at, index, first, ended < 0 ? done : call->n);
+  if (status || ended >= 0)
     return status;
-  status = usub_call_routine(driver, call);
-  if (status < 0)
-    return usub_block_fail(driver, call, index, p, status,
-                           "FRIC: the routine ended with %s at point %d",
-                           status == USUB_ROUTINE_RAISED ? "an exception" : "its status", p);
-  return take_answer(driver, call, at, index, p);
+  return usub_block_fail(
+      driver, call, index, first + done, ended, "FRIC: the routine ended with %s at point %d",
+      ended == USUB_ROUTINE_RAISED ? "an exception" : "its status", first + done);
 }

@@ -8,7 +8,7 @@ static void put_tangent(usub_driver *driver, int32_t position, const char *array
   if (usub_data(driver, array))
     usub_put_array(driver, position, array, NULL);
   else
-    usub_put_scratch(driver, position, 0, bytes, "output", "not wanted by the scene");
+    usub_put_scratch(driver, position, bytes, 0, "output", "not wanted by the scene");
 }
 
 /* Numbers, counts and names. */
@@ -43,7 +43,7 @@ static void plan_answers(usub_driver *driver) {
   usub_put_array(driver, USUB_FRIC_SED, "sed", NULL);
   usub_put_array(driver, USUB_FRIC_SFD, "sfd", NULL);
   put_tangent(driver, USUB_FRIC_DDTDDT, "ddtddt", 2 * vector);
-  usub_put_scratch(driver, USUB_FRIC_PNEWDT, 0, sizeof(double), "output", "smallest of all points");
+  usub_put_scratch(driver, USUB_FRIC_PNEWDT, sizeof(double), 0, "output", "smallest of all points");
   if (size->S)
     usub_put_memory(driver, USUB_FRIC_STATEV, driver->last.trial_state,
                     (size_t)size->S * sizeof(double));
@@ -57,12 +57,12 @@ static void plan_point(usub_driver *driver) {
   const usub_counts *count = &driver->counts;
   const size_t vector = (size_t)size->F * sizeof(double);
   usub_put_array(driver, USUB_FRIC_DGAM, "slip_increment", NULL);
-  usub_put_scratch(driver, USUB_FRIC_TAULM, 0, vector, "computed", "multiplier where LM is 1");
+  usub_put_scratch(driver, USUB_FRIC_TAULM, vector, 0, "computed", "multiplier where LM is 1");
   usub_put_array(driver, USUB_FRIC_PRESS, "pressure", NULL);
   if (usub_data(driver, "pressure_increment"))
     usub_put_array(driver, USUB_FRIC_DPRESS, "pressure_increment", NULL);
   else
-    usub_put_scratch(driver, USUB_FRIC_DPRESS, 0, sizeof(double), "computed",
+    usub_put_scratch(driver, USUB_FRIC_DPRESS, sizeof(double), 0, "computed",
                      "against the committed pressure");
   usub_put_array(driver, USUB_FRIC_DDPDDH, "contact_stiffness", NULL);
   usub_put_array(driver, USUB_FRIC_SLIP, "slip", NULL);
@@ -73,17 +73,17 @@ static void plan_point(usub_driver *driver) {
   else if (usub_data(driver, "element"))
     usub_put_fixed(driver, USUB_FRIC_NODE, &count->zero); /* contact elements have no node */
   else
-    usub_put_scratch(driver, USUB_FRIC_NODE, 0, sizeof(int32_t), "computed", "number of the point");
+    usub_put_scratch(driver, USUB_FRIC_NODE, sizeof(int32_t), 0, "computed", "number of the point");
   usub_put_array(driver, USUB_FRIC_COORDS, "coord", NULL);
   usub_put_array(driver, USUB_FRIC_RCOORD, "coord_main", NULL);
   usub_put_array(driver, USUB_FRIC_DROT, "rotation", identity);
   const char *const how = "both surfaces side by side";
   if (driver->set.temperatures)
-    usub_put_pair(driver, USUB_FRIC_TEMP, "temperature", 0, 2 * sizeof(double), "gathered", how);
+    usub_put_pair(driver, USUB_FRIC_TEMP, "temperature", 2 * sizeof(double), 0, "gathered", how);
   else
     usub_put_absent(driver, USUB_FRIC_TEMP, 2 * sizeof(double), "the scene has no temperatures");
   if (size->P)
-    usub_put_pair(driver, USUB_FRIC_PREDEF, "field", 0, 2 * (size_t)size->P * sizeof(double),
+    usub_put_pair(driver, USUB_FRIC_PREDEF, "field", 2 * (size_t)size->P * sizeof(double), 0,
                   "gathered", how);
   else
     usub_put_absent(driver, USUB_FRIC_PREDEF, 0, "the scene has no fields");

@@ -42,6 +42,8 @@ static void keep_iteration(usub_driver *driver) {
   memcpy(last->dslip, at.dslip, vector);
   memcpy(last->tau, at.tau, vector);
   memcpy(last->sed, at.sed, n * sizeof(double));
+  if (at.coefficient)
+    memcpy(last->coefficient, at.coefficient, 2 * n * sizeof(double));
   for (size_t i = 0; i < n; ++i)
     last->pressure[i] = last->closed[i] ? at.pressure[i] : 0; /* whatever the host has there */
   last->done = last->complete = 1;
@@ -117,6 +119,7 @@ int32_t usub_commit(usub_driver *driver) {
   if (at.elastic_slip) {
     memcpy(at.elastic_slip, last->trial_elastic, n * F * sizeof(double));
     memcpy(at.equivalent_slip, last->trial_equivalent, n * sizeof(double));
+    usub_commit_changing(driver, &at);
   }
   open_absent_points(driver, &at);
   last->open = 0;
@@ -131,6 +134,22 @@ int32_t usub_cut_back(usub_driver *driver) {
   if (status)
     return status;
   driver->last.open = 0;
+  return USUB_OK;
+}
+
+int32_t usub_set_amplitude(usub_driver *driver, double amplitude) {
+  if (!driver)
+    return USUB_BAD_ARGUMENT;
+  const int32_t status = check_order(driver, "usub_set_amplitude", 0);
+  if (status)
+    return status;
+  if (!driver->set.changing)
+    return usub_fail(driver, USUB_WRONG_ORDER,
+                     "%s: an amplitude needs the scene setting 'changing'", driver->title);
+  if (!(amplitude >= 0 && amplitude <= 1))
+    return usub_fail(driver, USUB_BAD_ARGUMENT, "%s: amplitude %g; expected 0 to 1", driver->title,
+                     amplitude);
+  driver->amplitude = amplitude;
   return USUB_OK;
 }
 

@@ -126,19 +126,38 @@ static int32_t refuse_input(usub_driver *driver, usub_call *call, int32_t index,
                          slot->port->name, point, argument, value);
 }
 
-int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first) {
+/* Elements of an argument that a call passes. */
+static size_t elements_of(const usub_driver *driver, const usub_call *call, int32_t position) {
+  const usub_source *source = &driver->sources[position];
+  const size_t bytes = source->per_point ? (size_t)call->n * source->per_point : source->extra;
+  return bytes / driver->size.real;
+}
+
+/* The first argument with NaN or infinity, and where in it; -1 if there is none. */
+static int32_t first_bad_input(const usub_driver *driver, const usub_call *call, ptrdiff_t *bad) {
   for (int32_t m = 0; m < driver->looked_at_count; ++m) {
     const int32_t position = driver->looked_at[m];
-    const usub_source *source = &driver->sources[position];
-    const size_t bytes = source->per_point ? (size_t)call->n * source->per_point : source->extra;
-    const size_t elements = bytes / driver->size.real;
-    const ptrdiff_t bad = usub_first_bad(call->argv[position], elements, driver->single);
-    if (bad < 0)
-      continue;
-    const usub_arg *arg = &driver->face->args[position];
-    return refuse_input(driver, call, index, position,
-                        first + point_of(call, arg, (size_t)bad, elements),
-                        value_at(call->argv[position], (size_t)bad, driver->single));
+    const size_t elements = elements_of(driver, call, position);
+    *bad = usub_first_bad(call->argv[position], elements, driver->single);
+    if (*bad >= 0)
+      return position;
   }
-  return USUB_OK;
+  return -1;
+}
+
+int usub_inputs_are_finite(const usub_driver *driver, const usub_call *call) {
+  ptrdiff_t bad = 0;
+  return first_bad_input(driver, call, &bad) < 0;
+}
+
+int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first) {
+  ptrdiff_t bad = 0;
+  const int32_t position = first_bad_input(driver, call, &bad);
+  if (position < 0)
+    return USUB_OK;
+  const usub_arg *arg = &driver->face->args[position];
+  const size_t elements = elements_of(driver, call, position);
+  return refuse_input(driver, call, index, position,
+                      first + point_of(call, arg, (size_t)bad, elements),
+                      value_at(call->argv[position], (size_t)bad, driver->single));
 }

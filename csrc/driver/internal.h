@@ -30,6 +30,14 @@ typedef enum {
   USUB_KIND_OF_COEFFICIENT
 } usub_kind_of_driver;
 
+/** How sticking is enforced; in the order of the choices of the scene setting. */
+typedef enum {
+  USUB_ENFORCE_DEFAULT,
+  USUB_ENFORCE_PENALTY,
+  USUB_ENFORCE_LAGRANGE,
+  USUB_ENFORCE_KINEMATIC
+} usub_enforcement;
+
 /** One argument, as in the table. */
 typedef struct usub_arg {
   const char *name, *modern;
@@ -132,7 +140,8 @@ typedef struct usub_source {
 /** Arguments and scratch of one worker. */
 typedef struct usub_call {
   void *argv[USUB_MAX_ARGS];
-  int32_t n;     /* contact points of the block */
+  int32_t n;     /* contact points of the call */
+  int32_t done;  /* of these, points that a routine of style POINTS is through with */
   char *scratch; /* one allocation; the sources' shares, then `axes` */
   void *axes;    /* local direction 1 of the points of a block */
   double pnewdt; /* smallest of this worker */
@@ -165,8 +174,9 @@ typedef struct usub_iteration {
   int32_t *lm;
   unsigned char *closed, *trial_closed;
   double *dslip, *tau, *sed, *pressure;
-  double *trial_state, *trial_elastic, *trial_equivalent;
-  double pnewdt; /* smallest of the iteration */
+  double *trial_state, *trial_elastic, *trial_equivalent, *coefficient;
+  unsigned char *by_pressure; /* whether the coefficient depends on the pressure; trial */
+  double pnewdt;              /* smallest of the iteration */
 } usub_iteration;
 
 struct usub_driver {
@@ -175,6 +185,7 @@ struct usub_driver {
   usub_routine routine; /* a copy */
   char title[16];       /* upper-case name of the interface, for messages */
   usub_settings set;
+  usub_enforcement enforcement;
   usub_sizes size;
   int32_t single, analytical, edges;
   int32_t points; /* present now */
@@ -187,6 +198,7 @@ struct usub_driver {
   usub_memory memory; /* of the slots */
   usub_source sources[USUB_MAX_ARGS];
   int32_t moving[USUB_MAX_ARGS], moving_count;       /* arguments that are slices */
+  int64_t stride[USUB_MAX_ARGS];                     /* bytes from point to point of a call */
   int32_t looked_at[USUB_MAX_ARGS], looked_at_count; /* inputs checked in every block */
   const usub_slot *whole[USUB_MAX_ARGS];             /* arrays checked once a call */
   int32_t whole_count;
@@ -206,10 +218,15 @@ struct usub_driver {
   size_t nothing_place;
   char missing[256];   /* what the plan lacks */
   usub_iteration last; /* standard */
+  double amplitude;    /* of changing friction, in the open or next increment */
   /* explicit */
   void *last_force; /* kept where the routine reads the previous force; by column (explicit.h) */
   int32_t keeps_force, scatters;
   double dissipation;
+  /* where it enforces sticking: what the increment leaves if it succeeds; NULL where not wanted */
+  int32_t *trial_condition;
+  void *trial_elastic;
+  double *point_dissipation;
   /* Explicit and coefficient: routines write to the state itself. */
   void *state_backup;
   size_t state_bytes;
@@ -280,6 +297,8 @@ void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, 
                    size_t extra, const char *what, const char *why);
 /** Notes that the scene has no such thing: zeros are passed. */
 void usub_put_absent(usub_driver *driver, int32_t position, size_t per_point, const char *why);
+/** Contact points that one call of the routine is for, at most. */
+int32_t usub_points_a_call(const usub_driver *driver);
 /** Whether the driver has to fill or empty the scratch of an argument. */
 int usub_is_live(const usub_driver *driver, int32_t position);
 /** Plan of the driver's kind, workers and scratch; refuses if needed arrays are not bound. */
@@ -291,10 +310,17 @@ void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t
 /* inputs.c */
 /** Lists the arrays that are looked at: inputs of the routine and what forces are spread with. */
 void usub_list_inputs(usub_driver *driver);
-/** Refuses NaN and infinity in the inputs of the block that `call` aims at. */
+/** Whether there is no NaN or infinity in the inputs that `call` aims at. */
+int usub_inputs_are_finite(const usub_driver *driver, const usub_call *call);
+/** Refuses NaN and infinity in these inputs. */
 int32_t usub_check_inputs(usub_driver *driver, usub_call *call, int32_t index, int32_t first);
 /** Refuses them in the arrays without a point index, and in shape functions that spread forces. */
 int32_t usub_check_whole_inputs(usub_driver *driver);
+
+/* enforcement.c */
+usub_enforcement usub_enforcement_of(const usub_settings *set);
+/** Refuses settings of enforcement that the driver cannot serve. */
+int32_t usub_check_enforcement(const usub_driver *driver, usub_error *error);
 
 /* props.c */
 /** Copies the properties. */
@@ -303,7 +329,7 @@ void usub_props_free(usub_driver *driver);
 
 /* run.c */
 /** Calls the routine with the arguments of `call`; the caller holds the guard. */
-int32_t usub_call_routine(const usub_driver *driver, const usub_call *call);
+int32_t usub_call_routine(const usub_driver *driver, usub_call *call);
 /** The same under a guard; says in `reason` why it ended, if it did. */
 int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
 /** Records that the routine did not return as it should in the block that `call` aims at. */
@@ -338,6 +364,12 @@ void usub_explicit_plan(usub_driver *driver);
 /** Memory of the previous force, if the plan wants it. */
 int32_t usub_explicit_memory(usub_driver *driver);
 size_t usub_force_bytes(const usub_driver *driver);
+/* explicit_enforcement.c */
+usub_enforcement usub_explicit_enforcement(const usub_driver *driver);
+/** Whether an explicit driver has memory of its own for a port: 1, 0, or -1 by the port's role. */
+int usub_explicit_owns(const usub_driver *driver, const char *port);
+int32_t usub_explicit_create(usub_driver *driver);
+void usub_explicit_free(usub_driver *driver);
 int32_t usub_explicit_block(usub_driver *driver, usub_call *call, int32_t index);
 void usub_coefficient_plan(usub_driver *driver);
 int32_t usub_coefficient_block(usub_driver *driver, usub_call *call, int32_t index);

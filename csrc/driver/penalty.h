@@ -4,17 +4,18 @@
  * consistent tangent: what the standard driver does with the answer of FRIC_COEF.
  *
  * Let g = elastic slip at the start + slip increment, m = (mu1 + mu2)/2, a_i = mu_i / m (both one
- * if isotropic), g~_i = a_i g_i, c = critical elastic slip, T = min(m p, shear limit), zero for p <
- * 0:
+ * if isotropic), g~_i = a_i g_i, T = min(m p, shear limit), zero for p < 0, c = critical elastic
+ * slip, or T / stick slope where a stick slope is given (softened tangential behaviour):
  *
  *   stick, |g~| <= c:  tau_i = (T/c) a_i^2 g_i                  plastic slip 0
  *   slip,  |g~| >  c:  tau_i = T a_i g~_i / |g~|                plastic slip (1 - c/|g~|) g
  *
  * so that the scaled stress tau_i / a_i is collinear with the scaled slip and bounded by T, and
  * |tau| <= T if isotropic. The coefficients are asked for at the plastic slip of the end of the
- * increment; if anisotropic they decide on that slip themselves, which leaves one equation for
- * the excess |g~| - c. It is bracketed from the start, so it is always solved (at a jump of the
- * coefficient: to the place of the jump); sticking is preferred where both are solutions.
+ * increment; if they decide on that slip themselves, being two or with a stick slope, that leaves
+ * one equation for the plastic fraction 1 - c/|g~| of the predictor. It is bracketed from the
+ * start, so it is always solved (at a jump of the coefficient: to the place of the jump); sticking
+ * is preferred where both are solutions.
  *
  * A direction whose coefficient is exactly zero while the other's is not is frictionless: all its
  * motion is plastic slip. If both are zero, a_i = 1 and the stress is zero.
@@ -22,8 +23,9 @@
  * Energy: with T constant, change of SED + SFD = tau . slip increment - (1/2) d . K d, where d is
  * the change of the elastic slip and K its stiffness: the work of the stress at the end of the
  * increment, less the error of taking it there, which is never negative, vanishes in steady
- * sliding and is of second order in the increment otherwise. If T changes, the stiffness and
- * with it SED change without work. SFD is never negative.
+ * sliding and is of second order in the increment otherwise. If T changes, the stiffness T/c
+ * and with it SED change without work. A stick slope is a constant stiffness (with one
+ * coefficient), and the statement holds whatever T does. SFD is never negative.
  */
 #ifndef USUB_PENALTY_H
 #define USUB_PENALTY_H
@@ -52,7 +54,8 @@ typedef struct usub_penalty_input {
   int32_t anisotropic; /* two coefficients; no meaning with one direction */
   double pressure;
   double time_increment;        /* >= 0; with 0 (no time passes) slip rates are zero */
-  double critical_elastic_slip; /* > 0 */
+  double critical_elastic_slip; /* > 0; not read where there is a stick slope */
+  double stick_slope;           /* stress per elastic slip in stick; 0 none */
   double shear_limit;           /* limit of the equivalent (scaled) stress; 0 none */
   const double *elastic_slip;   /* at the start of the increment */
   const double *slip;           /* plastic, accumulated, at the start */
@@ -72,6 +75,7 @@ typedef struct usub_penalty_output {
   double sfd;                       /* dissipation tau . plastic slip */
   int32_t sticks;                   /* 1 if there is no plastic slip */
   double mu[2];
+  double mu_by_pressure[2]; /* as the routine answered; not set without want_tangent */
 } usub_penalty_output;
 
 /** Stress, slips, energies and tangent of one point at the end of the increment.

@@ -17,6 +17,9 @@
 #define MOST_NOTHING ((size_t)1 << 28)
 #define ALIGNMENT 64
 
+/* Points of a call of style POINTS: enough to forget the call, few enough for the nearest cache. */
+#define LONGEST_RUN 64
+
 int32_t usub_used(const usub_driver *driver, int32_t position) {
   if (!driver->routine.uses_known)
     return -1;
@@ -145,6 +148,14 @@ void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, 
     usub_put_absent(driver, position, per_point + extra, "nothing is bound: zeros");
 }
 
+int32_t usub_points_a_call(const usub_driver *driver) {
+  if (driver->kind != USUB_KIND_OF_STANDARD)
+    return driver->block;
+  if (driver->routine.style != USUB_STYLE_POINTS)
+    return 1;
+  return driver->block < LONGEST_RUN ? driver->block : LONGEST_RUN;
+}
+
 int usub_is_live(const usub_driver *driver, int32_t position) {
   return driver->sources[position].from == USUB_SCRATCH;
 }
@@ -164,7 +175,7 @@ void usub_calls_free(usub_driver *driver) {
 /* One allocation of scratch for each worker, shared out to the arguments. */
 static int32_t make_calls(usub_driver *driver) {
   usub_calls_free(driver);
-  const size_t block = (size_t)driver->block;
+  const size_t block = (size_t)usub_points_a_call(driver);
   size_t total = ALIGNMENT + rounded(block * 3 * driver->size.real);
   for (int32_t i = 0; i < driver->face->count; ++i) {
     const usub_source *source = &driver->sources[i];
@@ -200,6 +211,8 @@ static void aim_fixed(usub_driver *driver) {
     const usub_source *source = &driver->sources[i];
     if (source->from == USUB_SLICE)
       driver->moving[driver->moving_count++] = i;
+    const int moves = source->from == USUB_SLICE || source->from == USUB_SCRATCH;
+    driver->stride[i] = moves ? (int64_t)source->per_point : 0;
     for (int32_t w = 0; w < driver->threads; ++w) {
       usub_call *call = &driver->calls[w];
       if (source->from == USUB_LEFT_OUT)
@@ -216,6 +229,7 @@ static void aim_fixed(usub_driver *driver) {
 
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n) {
   call->n = n;
+  call->done = 0;
   for (int32_t m = 0; m < driver->moving_count; ++m) {
     const usub_source *source = &driver->sources[driver->moving[m]];
     const void *base = source->slot ? source->slot->data : source->data;

@@ -93,13 +93,22 @@ int32_t usub_routine_create(const char *interface, const char *generation, const
     return usub_error_set(error, USUB_BAD_ARGUMENT, "%s: expected a pointer, got NULL",
                           routine ? "entry" : "routine");
   *routine = NULL;
-  if (style != USUB_STYLE_FULL && style != USUB_STYLE_BLOCK)
+  if (style != USUB_STYLE_FULL && style != USUB_STYLE_BLOCK && style != USUB_STYLE_POINTS)
     return usub_error_set(error, USUB_BAD_ARGUMENT,
-                          "style %d; expected USUB_STYLE_FULL (0) or USUB_STYLE_BLOCK (1)", style);
+                          "style %d; expected USUB_STYLE_FULL (0), USUB_STYLE_BLOCK (1) or "
+                          "USUB_STYLE_POINTS (2)",
+                          style);
   usub_routine *made = NULL;
   const int32_t status = routine_new(interface, generation, precision, &made, error);
   if (status)
     return status;
+  if (style == USUB_STYLE_POINTS && usub_interface_key(made->face) != USUB_INTERFACE_FRIC) {
+    free(made);
+    return usub_error_set(error, USUB_BAD_ARGUMENT,
+                          "style %d of %s; expected USUB_STYLE_FULL (0) or USUB_STYLE_BLOCK (1), "
+                          "since USUB_STYLE_POINTS is for FRIC",
+                          style, interface);
+  }
   made->style = style;
   made->entry = entry;
   *routine = made;

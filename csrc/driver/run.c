@@ -8,12 +8,15 @@
 #include "internal.h"
 
 typedef int32_t (*block_style)(void **argv);
+typedef int32_t (*points_style)(void **argv, const int64_t *stride, int32_t count, int32_t *done);
 
-int32_t usub_call_routine(const usub_driver *driver, const usub_call *call) {
+int32_t usub_call_routine(const usub_driver *driver, usub_call *call) {
   const usub_entry entry = driver->routine.entry;
   void *const *argv = call->argv;
   if (driver->routine.style == USUB_STYLE_BLOCK)
     return ((block_style)entry)((void **)(uintptr_t)argv);
+  if (driver->routine.style == USUB_STYLE_POINTS)
+    return ((points_style)entry)(call->argv, driver->stride, call->n, &call->done);
   switch (usub_interface_key(driver->face) * 2 + driver->single) {
   case USUB_INTERFACE_FRIC * 2:
     usub_call_fric_d(entry, argv);

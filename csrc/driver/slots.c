@@ -61,6 +61,10 @@ static void measure(const usub_driver *driver, usub_slot *slot) {
 
 /* Whether the driver itself needs memory for the slot although the host binds nothing. */
 static int is_owned(const usub_driver *driver, const usub_port *port) {
+  const int owns =
+      driver->kind == USUB_KIND_OF_EXPLICIT ? usub_explicit_owns(driver, port->name) : -1;
+  if (owns >= 0)
+    return owns;
   if (port->role == USUB_ROLE_STATE)
     return 1;
   if (port->role != USUB_ROLE_OUT)
@@ -104,7 +108,10 @@ int32_t usub_slots_create(usub_driver *driver, usub_error *error) {
     slot->place = place_of(driver, ports[i].name);
     slot->element = ports[i].kind == USUB_KIND_INT ? sizeof(int32_t) : driver->size.real;
     measure(driver, slot);
-    if (!is_owned(driver, &ports[i]) || slot->count == 0)
+    const int owned = is_owned(driver, &ports[i]);
+    if (!owned && ports[i].role == USUB_ROLE_STATE)
+      slot->count = 0; /* nothing to keep, nothing to save */
+    if (!owned || slot->count == 0)
       continue;
     if (slot->count > SIZE_MAX / slot->element || !(slot->own = calloc(slot->count, slot->element)))
       return usub_error_set(error, USUB_NO_MEMORY, "no memory for array '%s': %zu elements",
@@ -162,6 +169,11 @@ static int32_t check_binding(usub_driver *driver, const usub_slot *slot, const v
                      "%s: array '%s' is kept by the driver and cannot be bound; read it with "
                      "usub_array",
                      driver->title, name);
+  if (slot->own && slot->port->role == USUB_ROLE_IN)
+    return usub_fail(driver, USUB_BAD_ARGUMENT,
+                     "%s: array '%s' is computed by the driver, since scene setting 'enforcement' "
+                     "is '%s'; it cannot be bound",
+                     driver->title, name, driver->set.enforcement);
   if (!data)
     return USUB_OK;
   if (count != slot->count)

@@ -26,13 +26,16 @@ int32_t usub_standard_create(usub_driver *driver) {
   if (!usub_is_fric(driver)) {
     last->trial_elastic = calloc(N * F, sizeof(double));
     last->trial_equivalent = calloc(N, sizeof(double));
-    if (!last->trial_elastic || !last->trial_equivalent)
+    last->coefficient = calloc(2 * N, sizeof(double));
+    last->by_pressure = calloc(N, 1);
+    if (!last->trial_elastic || !last->trial_equivalent || !last->coefficient || !last->by_pressure)
       return USUB_NO_MEMORY;
   }
   int32_t *condition = driver->memory.condition;
   for (size_t i = 0; i < N; ++i)
     condition[i] = USUB_OPEN; /* nothing was closed before the first increment */
   last->pnewdt = USUB_PNEWDT_PRESET;
+  driver->amplitude = 1;
   return USUB_OK;
 }
 
@@ -48,13 +51,15 @@ void usub_standard_free(usub_driver *driver) {
   free(last->trial_state);
   free(last->trial_elastic);
   free(last->trial_equivalent);
+  free(last->coefficient);
+  free(last->by_pressure);
 }
 
 void usub_standard_plan(usub_driver *driver) {
   if (usub_is_fric(driver))
     usub_fric_plan(driver);
   else
-    usub_penalty_plan(driver);
+    usub_fric_coef_plan(driver);
 }
 
 usub_point_arrays usub_point_arrays_of(const usub_driver *driver) {
@@ -85,6 +90,10 @@ usub_point_arrays usub_point_arrays_of(const usub_driver *driver) {
       .elastic_slip = memory->elastic_slip,
       .equivalent_slip = memory->equivalent_slip,
       .coefficient = memory->coefficient,
+      .committed_coefficient = memory->committed_coefficient,
+      .start_coefficient = memory->start_coefficient,
+      .committed_allowable = memory->committed_allowable,
+      .start_allowable = memory->start_allowable,
   };
 }
 
@@ -109,7 +118,11 @@ static void reset_point(usub_driver *driver, const usub_point_arrays *at, int32_
     memcpy(driver->last.trial_state + i * S, at->state + i * S, S * sizeof(double));
 }
 
-/* Refuses NaN and infinity, and finds out whether the point is closed. */
+static int is_closed(const usub_point_arrays *at, int32_t p) {
+  return at->closed ? at->closed[p] != 0 : at->pressure[p] > 0;
+}
+
+/* Refuses NaN and infinity. */
 static int32_t look_at_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
                              int32_t index, int32_t p) {
   const size_t F = (size_t)driver->size.F, i = (size_t)p;
@@ -124,23 +137,39 @@ static int32_t look_at_point(usub_driver *driver, usub_call *call, const usub_po
                            "%s: slip_increment of point %d, direction %d, = %g; expected a finite "
                            "value",
                            driver->title, p, bad + 1, at->slip_increment[i * F + (size_t)bad]);
-  driver->last.trial_closed[p] = at->closed ? at->closed[i] != 0 : pressure > 0;
   return USUB_OK;
 }
 
-static int32_t run_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                         int32_t index, int32_t p) {
+/* Whether the point can go to the routine together with the one before it. */
+static int can_follow(const usub_driver *driver, const usub_point_arrays *at, int32_t p) {
+  const double pressure = at->pressure[p];
+  const double *slip = at->slip_increment + (size_t)p * (size_t)driver->size.F;
+  return pressure - pressure == 0 && usub_first_bad_of_few(slip, driver->size.F) < 0 &&
+         is_closed(at, p);
+}
+
+/* Point `p`, and where the routine takes several at once, closed ones behind it: `most` in all. */
+static int32_t run_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                          int32_t index, int32_t p, int32_t most, int32_t *count) {
+  *count = 1;
   const int32_t status = look_at_point(driver, call, at, index, p);
   if (status)
     return status;
   reset_point(driver, at, p);
-  if (driver->last.trial_closed[p])
-    return usub_is_fric(driver) ? usub_fric_point(driver, call, at, index, p)
-                                : usub_penalty_point(driver, call, at, index, p);
-  at->lm[p] = USUB_OPEN;
+  driver->last.trial_closed[p] = (unsigned char)is_closed(at, p);
+  if (!driver->last.trial_closed[p]) {
+    at->lm[p] = USUB_OPEN;
+    if (!usub_is_fric(driver))
+      usub_fric_coef_open_point(driver, at, p);
+    return USUB_OK;
+  }
   if (!usub_is_fric(driver))
-    usub_penalty_open_point(driver, at, p);
-  return USUB_OK;
+    return usub_fric_coef_point(driver, call, at, index, p);
+  for (; *count < most && can_follow(driver, at, p + *count); ++*count) {
+    reset_point(driver, at, p + *count);
+    driver->last.trial_closed[p + *count] = 1;
+  }
+  return usub_fric_points(driver, call, at, index, p, count);
 }
 
 int32_t usub_check_answers(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
@@ -187,18 +216,26 @@ __attribute__((noinline)) int32_t usub_standard_block(usub_driver *driver, usub_
   const usub_point_arrays at = usub_point_arrays_of(driver);
   const int32_t first = index * driver->block, rest = driver->points - first;
   const int32_t last = first + (rest < driver->block ? rest : driver->block);
+  const int32_t most = usub_points_a_call(driver);
   volatile int32_t p = first;
   volatile int32_t status = USUB_OK;
   usub_guard guard;
   usub_guard_push(&guard);
   if (sigsetjmp(guard.env, 0) == 0) {
-    for (; p < last && status >= 0; p = p + 1)
-      status = run_point(driver, call, &at, index, p);
+    for (int32_t count = 1; p < last && status >= 0; p = p + count) {
+      const int32_t left = last - p;
+      status = run_points(driver, call, &at, index, p, left < most ? left : most, &count);
+    }
   } else {
+    const int32_t done = call->done, ended = p + done;
     char reason[256];
+    call->done = 0;
     usub_explain(driver, &guard, reason);
-    status = usub_block_fail(driver, call, index, p, guard.status,
-                             "%s: the routine ended with %s at point %d", driver->title, reason, p);
+    status = usub_fric_take(driver, call, &at, index, p, done);
+    if (!status)
+      status = usub_block_fail(driver, call, index, ended, guard.status,
+                               "%s: the routine ended with %s at point %d", driver->title, reason,
+                               ended);
   }
   usub_guard_pop(&guard);
   return status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What FRIC and the penalty enforcement of FRIC_COEF share. */
+/* What FRIC and the enforcement of FRIC_COEF share. */
 #ifndef USERSUB_STANDARD_H
 #define USERSUB_STANDARD_H
 
@@ -20,6 +20,7 @@ typedef struct usub_point_arrays {
   const double *slip_increment, *pressure, *multiplier, *rotation;
   const double *temperature[2], *field[2];
   double *elastic_slip, *equivalent_slip, *coefficient;
+  double *committed_coefficient, *start_coefficient, *committed_allowable, *start_allowable;
 } usub_point_arrays;
 
 usub_point_arrays usub_point_arrays_of(const usub_driver *driver);
@@ -32,14 +33,37 @@ static inline int usub_is_fric(const usub_driver *driver) {
 
 /* fric_plan.c, fric.c */
 void usub_fric_plan(usub_driver *driver);
-int32_t usub_fric_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                        int32_t index, int32_t p);
+/** Closed points `first` to `first + *count - 1` by one call of the routine; *count becomes 1 if it
+ * was for the first of them only. */
+int32_t usub_fric_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                         int32_t index, int32_t first, int32_t *count);
+/** Takes what the routine answered for the first `count` points of the call that began at `first`.
+ */
+int32_t usub_fric_take(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                       int32_t index, int32_t first, int32_t count);
 
-/* penalty_driver.c: FRIC_COEF */
-void usub_penalty_plan(usub_driver *driver);
-int32_t usub_penalty_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                           int32_t index, int32_t p);
-void usub_penalty_open_point(usub_driver *driver, const usub_point_arrays *at, int32_t p);
+/* fric_coef_point.c */
+void usub_fric_coef_plan(usub_driver *driver);
+int32_t usub_fric_coef_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                             int32_t index, int32_t p);
+void usub_fric_coef_open_point(usub_driver *driver, const usub_point_arrays *at, int32_t p);
+
+/* changing.c */
+/** The two coefficients that the point starts the step with. */
+const double *usub_start_coefficient(const usub_driver *driver, const usub_point_arrays *at,
+                                     int32_t p);
+/** Allowable elastic slip of the point in this increment; 0 where the scene has none. */
+double usub_allowable_elastic_slip(const usub_driver *driver, const usub_point_arrays *at,
+                                   int32_t p);
+/** Commits what later steps start from. */
+void usub_commit_changing(usub_driver *driver, const usub_point_arrays *at);
+
+/** LM on entry: that of the last iteration, or the condition of the last increment. */
+static inline int32_t usub_lm_on_entry(const usub_driver *driver, const usub_point_arrays *at,
+                                       int32_t p) {
+  const usub_iteration *last = &driver->last;
+  return last->done && last->closed[p] ? last->lm[p] : at->condition[p];
+}
 
 /** Refuses NaN and infinity in what a point returns; `how` they came about is for the message. */
 int32_t usub_check_answers(usub_driver *driver, usub_call *call, const usub_point_arrays *at,

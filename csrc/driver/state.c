@@ -9,7 +9,7 @@
 
 #include "internal.h"
 
-#define STATE_FORMAT 1u
+#define STATE_FORMAT 2u
 #define BYTE_ORDER_MARK 0x01020304u
 
 /* No padding: the header is written and summed as it lies in memory. */
@@ -19,12 +19,13 @@ typedef struct state_header {
   int32_t abi_version, kind, interface, single;
   int32_t sizes[12];
   int32_t has_force, step, increment, timed;
+  int32_t enforcement, changing; /* settings that decide what is kept */
   double time[3], work, dissipation;
   uint64_t payload; /* bytes behind the header */
   uint64_t check;   /* FNV-1a of header (with check = 0) and payload */
 } state_header;
 
-_Static_assert(sizeof(state_header) == 152, "the header of a saved state has no padding");
+_Static_assert(sizeof(state_header) == 160, "the header of a saved state has no padding");
 
 void usub_state_keep(usub_driver *driver) {
   if (driver->state_bytes)
@@ -68,6 +69,10 @@ static state_header header_of(const usub_driver *driver) {
       .sizes = {size->N, size->D, size->F, size->S, size->P, size->A, size->B, size->M, size->X,
                 size->Y, size->Z, size->T},
       .has_force = driver->last_force != NULL,
+      /* A standard driver keeps the same arrays whatever its settings: the next step of a host may
+       * enforce or change friction in another way. */
+      .enforcement = driver->kind == USUB_KIND_OF_EXPLICIT ? (int32_t)driver->enforcement : 0,
+      .changing = driver->kind == USUB_KIND_OF_EXPLICIT ? driver->set.changing : 0,
       .step = driver->accepted.flags[0],
       .increment = driver->accepted.flags[1],
       .timed = driver->accepted.timed,
@@ -140,6 +145,8 @@ static const char *misfit(const usub_driver *driver, const state_header *saved, 
     return "it was saved in another precision";
   if (memcmp(saved->sizes, mine.sizes, sizeof mine.sizes) != 0)
     return "its scene has other sizes (points, dimension, states, fields, nodes)";
+  if (saved->enforcement != mine.enforcement || saved->changing != mine.changing)
+    return "its scene enforces sticking or changes friction in another way";
   if (!is_sound(driver, saved))
     return "its header is damaged";
   if (saved->payload != payload_bytes(driver, saved->has_force) ||

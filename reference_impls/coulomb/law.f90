@@ -1,20 +1,17 @@
 ! SPDX-License-Identifier: MIT
 ! Coulomb friction: a constant coefficient, props(1).
 #define USUB_LAW 'coulomb'
+#define USUB_LAW_PROPS 1
 #include "usersub/laws.fi"
 
 module usub_law_function
   use usub_law_tools
   implicit none
 contains
-  pure integer function needed_props(props)
-    real(wp), intent(in) :: props(:)
-    needed_props = 1
-  end function
-
-  function law(rate, pressure, temperature, props, derivative) result(mu)
-    real(wp), intent(in) :: rate, pressure, temperature, props(:)
-    real(wp), intent(inout), optional :: derivative(3)
+  function law( &
+#include "usersub/law_names.fi"
+      ) result(mu)
+#include "usersub/law_types.fi"
     real(wp) :: mu
     mu = props(1)
   end function

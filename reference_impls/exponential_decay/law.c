@@ -6,8 +6,11 @@
 #include <usersub/coefficient_law.h>
 
 USUB_LAW_FUNCTION {
-  const usub_real transition = (props[0] - props[1]) * usub_bounded_exp(-props[2] * rate);
+  const usub_real fall = props[0] - props[1];
+  const usub_real transition = fall * usub_bounded_exp(-props[2] * rate);
   if (derivative)
     derivative[0] = -props[2] * transition;
+  if (fall < 0) /* the same from the other end, where nothing cancels */
+    return props[0] + fall * expm1(-props[2] * rate);
   return props[1] + transition;
 }

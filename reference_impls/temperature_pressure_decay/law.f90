@@ -2,6 +2,7 @@
 ! Exponential decay between coefficients that are linear in temperature and pressure;
 ! props: Cs, Ds, Ck, Dk, decay.
 #define USUB_LAW 'temperature_pressure_decay'
+#define USUB_LAW_PROPS 5
 #define USUB_LAW_READS_RATE
 #define USUB_LAW_READS_PRESSURE
 #define USUB_LAW_READS_TEMPERATURE
@@ -11,14 +12,10 @@ module usub_law_function
   use usub_law_tools
   implicit none
 contains
-  pure integer function needed_props(props)
-    real(wp), intent(in) :: props(:)
-    needed_props = 5
-  end function
-
-  function law(rate, pressure, temperature, props, derivative) result(mu)
-    real(wp), intent(in) :: rate, pressure, temperature, props(:)
-    real(wp), intent(inout), optional :: derivative(3)
+  function law( &
+#include "usersub/law_names.fi"
+      ) result(mu)
+#include "usersub/law_types.fi"
     real(wp) :: mu, at_rest, sliding, share
     at_rest = props(1)*temperature + props(2)*pressure
     sliding = props(3)*temperature + props(4)*pressure

@@ -2,8 +2,8 @@
 """Measures the drivers against limits written by hand: `make bench`.
 
 Prints a table and writes it to docs/explanation/benchmarks.md, or to the file that is named.
-Timings are medians of interleaved rounds in one process; only the ratios carry over to other
-machines.
+Timings are medians of the processor time of interleaved rounds in one process; only the ratios
+carry over to other machines.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 import usersub
-from tests.benchmarks import laws
+from tests.benchmarks import laws, lifted
 from usersub.core import lib
 from usersub.routine import fortran
 
@@ -32,10 +32,10 @@ Row = tuple[str, str, int, float, float | None, str]
 
 
 def once(repeat: Callable[[int], None], times: int) -> float:
-    """Seconds of one call, in a round of `times` calls."""
-    start = time.perf_counter()
+    """Seconds of processor time of one call, in a round of `times` calls."""
+    start = time.thread_time()
     repeat(times)
-    return (time.perf_counter() - start) / times
+    return (time.thread_time() - start) / times
 
 
 def medians(repeats: dict[str, Callable[[int], None]]) -> dict[str, float]:
@@ -134,6 +134,17 @@ def blocks(folder: Path, points: int) -> list[Row]:
     ]
 
 
+def law_functions() -> list[Row]:
+    """A law function behind each interface against the routine written by hand for it."""
+    rows: list[Row] = []
+    for name, (law, by_hand) in lifted.pairs().items():
+        found = medians({"law": law, "by hand": by_hand})
+        work = f"{name.upper()}, law function of five lines{lifted.WITH.get(name, '')}"
+        limit = "routine by hand with numba"
+        rows.append((work, "Python", lifted.POINTS, found["law"], found["by hand"], limit))
+    return rows
+
+
 def machine() -> str:
     """Processor, compilers and versions."""
     import numba
@@ -157,8 +168,12 @@ def table(rows: list[Row]) -> str:
         "",
         "# Benchmarks",
         "",
-        "Written by `make bench`. Medians of interleaved rounds in one process; only the ratios",
-        "carry over to other machines.",
+        "Written by `make bench`. Medians of the processor time of interleaved rounds in one",
+        "process; only the ratios carry over to other machines.",
+        "",
+        "The last rows compare a [law function](../how-to/law-functions.md) of five lines, behind",
+        "each interface, with the routine that one would write by hand for the same work:",
+        "enforcement and tangent included behind FRIC, derivatives behind FRIC_COEF.",
         "",
         f"Machine: {machine()}.",
         "",
@@ -178,6 +193,7 @@ def main(output: str = "docs/explanation/benchmarks.md") -> None:
         rows = one_point(Path(folder))
         for points in (10_000, 1_000_000):
             rows += blocks(Path(folder), points)
+        rows += law_functions()
     text = table(rows)
     Path(output).write_text(text)
     print(text, end="")

@@ -13,6 +13,8 @@ TEXT = """\
 0.3
 *SURFACE INTERACTION, NAME=glued
 *FRICTION, ROUGH
+*SURFACE INTERACTION, NAME=own
+*FRICTION, USER, TAUMAX=2.
 *SURFACE INTERACTION, NAME=none
 *GAP, ELSET=g
 *FRICTION
@@ -37,7 +39,7 @@ def test_table(tmp_path):
     assert result.exit_code == 0, result.stderr
     for words in (
         "standard", "plain", "mu = 0.3", "shear stress up to 50", "FRIC_COEF", "frictionless",
-        "GAP g", "change", "original friction", "glued, line 4, does not run: rough",
+        "GAP g", "change", "original friction", "rough", "own, line 6, does not run: TAUMAX",
         "note: ", "stick slope",
     ):  # fmt: skip
         assert words in result.stdout
@@ -47,12 +49,13 @@ def test_json(tmp_path):
     result = run(tmp_path, "--json")
     found = json.loads(result.stdout)
     assert (found["command"], found["solver"], len(found["steps"])) == ("deck", "standard", 1)
-    plain, glued, _, _, change, reset = found["results"]
+    plain, glued, own, _, _, change, reset = found["results"]
     assert plain["settings"] == {"props": [0.3], "shear_limit": 50.0}
     assert plain["friction"]["law"]["type"] == "Table"
-    assert glued["not_runnable"] and glued["settings"] is None
+    assert glued["interface"] == "fric" and not glued["not_runnable"]
+    assert own["not_runnable"] and own["settings"] is None
     assert (change["kind"], change["step"], reset["kind"]) == ("change", 1, "reset")
-    assert found["warnings"][0]["line"] == 8
+    assert found["warnings"][0]["line"] == 10
 
 
 def test_dialect_and_solver(tmp_path):

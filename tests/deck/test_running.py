@@ -78,44 +78,122 @@ def test_slip_tolerance_needs_the_length_of_the_host():
     assert settings == {"props": (0.3,), "slip_tolerance": 0.01}
 
 
-def test_softened_friction_by_the_penalty_stick_force():
+def explicit_force(found, slips, normal_force, **settings):
+    """Forces of two points after increments of slip along the first axis, unit areas."""
+    scene = usersub.Scene(points=2, nodes=6, **found.scene_settings(), **settings)
+    driver = usersub.driver(found.routine(), scene)
+    normal = np.asfortranarray([[0.0, 0.0], [0.0, 0.0], [1.0, 1.0]])
+    for slip in slips:
+        increment = np.asfortranarray([slip, [0.0, 0.0], [0.0, 0.0]])
+        force = driver.step(
+            1.0, slip_increment=increment, normal=normal, normal_force=np.array(normal_force)
+        ).force
+    return -force[0]
+
+
+def test_softened_friction():
     found = friction("*FRICTION, SHEAR TRACTION SLOPE=100.\n0.3\n")
     assert found.interface == "vfric_coef"
-    scene = usersub.Scene(points=2, nodes=6, **found.scene_settings())
+    force = explicit_force(found, [[0.005, 0.1], [0.005, 0.1]], [10.0, 10.0])
+    np.testing.assert_allclose(force, [1.0, 3.0], rtol=1e-14)  # on the slope, at mu p
+
+
+def test_softened_rough_friction_has_no_bound():
+    found = friction("*FRICTION, ROUGH, SHEAR TRACTION SLOPE=100.\n")
+    assert found.interface == "vfriction"
+    force = explicit_force(found, [[0.005, 0.1], [0.005, 0.1]], [10.0, 10.0])
+    np.testing.assert_allclose(force, [1.0, 20.0], rtol=1e-14)
+
+
+def test_the_limit_of_the_shear_stress_in_the_explicit_solver():
+    found = friction("*FRICTION, TAUMAX=2., SHEAR TRACTION SLOPE=100.\n0.3\n")
+    force = explicit_force(found, [[0.1, 0.1]], [5.0, 10.0])
+    np.testing.assert_allclose(force, [1.5, 2.0], rtol=1e-14)
+
+
+def implicit(found, slip, pressure, **settings):
+    """Response of points that slide for the first time."""
+    scene = usersub.Scene(
+        points=len(pressure),
+        dimension=len(slip) + 1,
+        characteristic_length=1.0,
+        **found.scene_settings(),
+        **settings,
+    )
     driver = usersub.driver(found.routine(), scene)
-    slip = np.asfortranarray([[0.01, 0.2], [0.0, 0.0], [0.0, 0.0]])
-    normal = np.asfortranarray([[0.0, 0.0], [0.0, 0.0], [1.0, 1.0]])
-    stiffness = np.full(2, found.shear_traction_slope)  # on unit areas
-    stick = usersub.stick_force_penalty(np.zeros_like(slip, order="F"), slip, normal, stiffness)
-    force = driver.step(
-        1.0, slip_increment=slip, normal=normal, normal_force=np.full(2, 10.0), stick_force=stick
-    ).force
-    np.testing.assert_allclose(np.abs(force[0]), [1.0, 3.0], rtol=1e-14)
+    arrays = {"slip_increment": np.asfortranarray(slip), "pressure": np.array(pressure)}
+    if "multiplier" in driver.layout.ports:
+        arrays["multiplier"] = np.zeros((len(slip), len(pressure)), order="F")
+    driver.bind(**arrays)
+    for _ in range(2):  # points close in the first increment
+        driver.begin_increment(1.0)
+        response = driver.iterate()
+        driver.commit()
+    return response
+
+
+def test_rough_friction_allows_no_motion():
+    found = friction("*FRICTION, ROUGH\n", solver="standard")
+    assert found.interface == "fric"
+    assert list(implicit(found, [[0.0, 0.0]], [4.0, 9.0]).lm) == [1, 1]
+
+
+def test_lagrange_multipliers():
+    found = friction("*FRICTION, LAGRANGE\n0.3\n")
+    assert found.scene_settings()["enforcement"] == "lagrange"
+    assert list(implicit(found, [[0.0, 0.0]], [4.0, 9.0]).lm) == [1, 1]
+
+
+def test_two_coefficients():
+    found = friction("*FRICTION, ANISOTROPIC\n0.3, 0.2\n")
+    tau = implicit(found, [[1.0, 0.0], [0.0, 1.0]], [10.0, 10.0]).tau
+    np.testing.assert_allclose(tau, [[3.0, 0.0], [0.0, 2.0]], rtol=1e-14)
+
+
+def test_tables_of_two_coefficients():
+    found = friction("*FRICTION, ANISOTROPIC\n.3,.2,,10.\n.1,.4,,20.\n")
+    tau = implicit(found, [[1.0, 0.0], [0.0, 1.0]], [15.0, 12.5]).tau
+    np.testing.assert_allclose(tau, [[0.2 * 15.0, 0.0], [0.0, 0.25 * 12.5]], rtol=1e-14)
+
+
+@pytest.mark.parametrize("solver", ["standard", "explicit"])
+def test_a_table_over_field_variables(solver):
+    # the slip rate matters at the second field's lower value only, and only there is it given
+    table = ".4,0.,,,1.,1.\n.2,10.,,,1.,1.\n.3,,,,1.,2.\n.1,,,,5.,2.\n"
+    found = friction("*FRICTION, DEPENDENCIES=2\n" + table, solver=solver)
+    settings = found.scene_settings()
+    assert settings["fields"] == 2
+    rate = np.array([5.0, 5.0, 5.0, 0.0])
+    fields = np.asfortranarray([[1.0, 3.0, 3.0, 9.0], [0.0, 1.5, 2.0, 9.0]])
+    scene = usersub.Scene(points=4, **settings)
+    arrays = {"slip_rate": rate, "pressure": ONE, "field": fields}
+    if solver == "standard":
+        arrays["slip_data"] = np.asfortranarray(np.vstack([rate, np.zeros((5, 4))]))
+        del arrays["slip_rate"]
+    mu = usersub.CoefficientDriver(found.routine(), scene).evaluate(**arrays)
+    np.testing.assert_allclose(mu, [0.3, 0.25, 0.2, 0.1], rtol=1e-14)
+
+
+def test_stick_slope_of_calculix():
+    found = deck.read(HEAD + "*FRICTION\n0.3, 1e3\n", dialect="calculix")["A"].friction
+    tau = implicit(found, [[1e-3, 0.1]], [10.0, 10.0]).tau
+    np.testing.assert_allclose(tau, [[2.0, 3.0]], rtol=1e-14)
 
 
 @pytest.mark.parametrize(
     ("text", "solver", "words"),
     [
-        ("*FRICTION, ROUGH\n", None, "no slip"),
-        ("*FRICTION, LAGRANGE\n0.3\n", None, "Lagrange"),
-        ("*FRICTION, ANISOTROPIC\n0.3, 0.2\n", None, "two coefficients"),
-        ("*FRICTION, TAUMAX=1.\n0.3\n", "explicit", "TAUMAX"),
         ("*FRICTION, USER, TAUMAX=1.\n", None, "TAUMAX"),
-        ("*FRICTION, DEPENDENCIES=2\n.3,,,,1.,1.\n.2,,,,1.,2.\n", None, "field variable"),
+        ("*FRICTION, USER, TAUMAX=1.\n", "explicit", "TAUMAX"),
     ],
 )
 def test_what_does_not_run_says_why(text, solver, words):
     found = friction(text, solver=solver)
     assert words in found.not_runnable and found.interface == ""
-    for attempt in (found.scene_settings, found.routine):
+    for attempt in (found.scene_settings, found.routine, found.acting):
         with pytest.raises(DeckError, match="does not run") as caught:
             attempt()
         assert caught.value.line == 2
-
-
-def test_stick_slope_of_calculix():
-    found = deck.read(HEAD + "*FRICTION\n0.3, 1e3\n", dialect="calculix")["A"].friction
-    assert "stick slope" in found.not_runnable
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from usersub import DeckError, deck
-from usersub.deck import ElasticSlip, Lagrange, Row, SlipTolerance, Table, User
+from usersub.deck import ElasticSlip, Lagrange, Row, SlipTolerance, Table, User, procedures
 
 HEAD = "*SURFACE INTERACTION, NAME=A\n"
 
@@ -247,8 +247,57 @@ def test_friction_of_gaps_and_connectors():
 
 
 def test_riks_and_rates():
-    text = HEAD + "*FRICTION, EXP\n0.3,0.2,1.\n*STEP\n*STATIC, RIKS\n*END STEP\n"
-    assert "Riks" in deck.read(text).warnings[0].text
+    decay, riks = "*FRICTION, EXP\n0.3,0.2,1.\n", "*STEP\n*STATIC, RIKS\n*END STEP\n"
+    static = "*STEP\n*STATIC\n*END STEP\n"
+    change = "*CHANGE FRICTION, INTERACTION=A\n" + decay
+    for text in (decay + riks, decay + static + riks, "*FRICTION\n0.3\n" + riks[:-10] + change):
+        with pytest.raises(DeckError, match="A depends on the slip rate.* Riks step of deck:"):
+            deck.read(HEAD + text)
+    other = change.replace(decay, "*FRICTION\n0.3\n")
+    deck.read(HEAD + decay + static + "*STEP\n*STATIC, RIKS\n" + other)
+    deck.read(HEAD + "*FRICTION, EXP\n0.3,0.2,0.\n" + riks)
+
+
+PROCEDURES = [
+    ("Static", "standard", True),
+    ("Static, riks", "standard", True),
+    ("Dynamic", "standard", False),
+    ("Dynamic, application=QUASI-STATIC", "standard", True),
+    ("Dynamic, application=moderate dissipation", "standard", False),
+    ("Dynamic, Explicit", "explicit", False),
+    ("Dynamic Temperature-displacement, Explicit", "explicit", False),
+    ("Coupled Temperature-displacement, creep=none, deltmx=10.", "standard", False),
+    ("COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE", "standard", True),
+    ("Visco, cetol=1e-3", "standard", False),
+    ("Soils, consolidation", "standard", False),
+    ("Soils", "standard", True),
+    ("Steady State Transport", "standard", True),
+    ("Heat Transfer", None, True),
+]
+
+
+@pytest.mark.parametrize(("line", "solver", "ramps"), PROCEDURES)
+def test_procedures(line, solver, ramps):
+    found = deck.read(HEAD + f"*FRICTION\n0.3\n*STEP\n*{line}\n1.,1.\n*END STEP\n")
+    assert found.solver == solver
+    assert procedures.ramps(found.steps[0].procedure) == ramps
+    assert deck.read(found.write()) == found
+
+
+def test_connectors_have_a_tolerance_of_their_own():
+    text = "*CONNECTOR FRICTION\n*FRICTION{}\n0.3\n*GAP, ELSET=g\n0.1\n*FRICTION\n0.3\n"
+    connector, gap = deck.read(text.format("")).others
+    assert connector.friction.scene_settings()["slip_tolerance"] == 1e-4
+    assert "slip_tolerance" not in gap.friction.scene_settings()
+    given = deck.read(text.format(", SLIP TOLERANCE=0.002")).others[0]
+    assert given.friction.scene_settings()["slip_tolerance"] == 0.002
+
+
+def test_a_user_coefficient_may_be_anisotropic():
+    friction = deck.read(HEAD + "*FRICTION, USER=COEFFICIENT, ANISOTROPIC\n")["A"].friction
+    assert friction.scene_settings() == {"props": (), "anisotropic": 1}
+    warning = deck.read(HEAD + "*FRICTION, USER, ANISOTROPIC\n").warnings[0]
+    assert "ANISOTROPIC has no meaning" in warning.text
 
 
 # Includes.

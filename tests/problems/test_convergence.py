@@ -39,10 +39,10 @@ def test_smooth_methods_have_their_order(studies):
 
 def test_exact_methods_leave_rounding(studies):
     exact = [s for s in studies if s.kind == EXACT]
-    assert {s.problem for s in exact} == {"P1", "P3"}
+    assert {s.problem for s in exact} == {"P1", "P3", "P5", "P6", "P7", "P8", "P9"}
     for study in exact:
-        # Rounding of up to 128 additions.
-        assert max(study.errors) < 1e-13, study
+        # Rounding of some hundred additions.
+        assert max(study.errors) < 3e-13, study
         assert study.order is None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from usersub import problems
+from usersub import laws, problems
 
 #: Every problem by every method through every interface, in each precision.
 RUNS = {
@@ -24,9 +24,12 @@ def nothing(c_routine, case):
     """A routine without friction behind the interface of the case."""
     parameters = "fric_coef_2022" if case.interface == "fric_coef" else case.interface
     single = "#define USUB_SINGLE\n" if case.precision == "single" else ""
+    # A scene with two coefficients wants both.
+    anisotropic = case.interface == "fric_coef" and laws.LAWS[case.law].anisotropic
+    body = "fCoef[0] = fCoef[*nBlock] = 0.0;" if anisotropic else ""
     source = (
         f"{single}#include <usersub/abi.h>\n"
-        f"void {case.interface}_(USUB_{parameters.upper()}_PARAMETERS) {{}}\n"
+        f"void {case.interface}_(USUB_{parameters.upper()}_PARAMETERS) {{{body}}}\n"
     )
     generation = "2022" if case.interface == "fric_coef" else None
     return c_routine(case.interface, source, generation=generation, precision=case.precision)

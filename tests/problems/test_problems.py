@@ -18,6 +18,13 @@ def test_demo_has_every_problem_interface_language_and_precision():
     seen = {(c.problem, c.interface, c.language, c.precision) for c in problems.demo_cases()}
     for problem in problems.PROBLEMS.values():
         for interface in problem.interfaces:
+            # Its laws behind the other interfaces would have to be compiled for it alone.
+            if problem.name == "P23" and interface not in ("fric_coef", "vfric_coef"):
+                continue
+            # So would their laws; the tests run them all.
+            if problem.name in ("P13", "P14", "P15", "P16", "P17", "P18"):
+                assert (problem.name, interface, "c", "double") in seen
+                continue
             for language in laws.LANGUAGES:
                 for precision in ("double", "single") if interface[0] == "v" else ("double",):
                     assert (problem.name, interface, language, precision) in seen
@@ -109,7 +116,7 @@ def _with_another_coefficient(routine, law, precision, method, **options):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"name": "P9"}, "problem list has no problem 'P9'"),
+        ({"name": "P99"}, "problem list has no problem 'P99'"),
         ({"name": "P1", "interface": "vfrick"}, "no interface 'vfrick'; did you mean 'vfric'"),
         ({"name": "P1", "method": "CPE4"}, "no method 'CPE4'; did you mean 'CPE3'"),
         ({"name": "P1", "language": "cobol"}, "no language 'cobol'"),

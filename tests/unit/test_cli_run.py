@@ -188,6 +188,23 @@ def test_stick_force_rules(tmp_path, name, rule, expected):
     np.testing.assert_allclose(columns["tau"][0, 0], np.array([0.6, 0.8]) * expected[0])
 
 
+@pytest.mark.parametrize("name", ["vfric", "vfriction"])
+@pytest.mark.parametrize(
+    ("scene", "rule", "expected"),
+    [
+        ('enforcement = "kinematic"', "mass = 8.0", [8.0 * 5.0 / 1.0, 0.0]),
+        ('enforcement = "penalty"\nstick_slope = 5.0', "", [25.0, 25.0]),
+    ],
+)
+def test_enforcement_by_the_driver(tmp_path, name, scene, rule, expected):
+    count = {"vfric": "nContact", "vfriction": "nBlock"}[name]
+    text = "time = [0, 1, 3]\nslip = [[0, 0], [3, 4], [3, 4]]\npressure = 2.0\n" + rule
+    path = write(tmp_path, ECHO.format(name=name, count=count), text, scene)
+    columns = run_scene(path).history.columns
+    np.testing.assert_allclose(columns["stick_force"][:, 0], expected, rtol=1e-14)
+    np.testing.assert_allclose(np.linalg.norm(columns["force"][:, 0], axis=1), expected, rtol=1e-14)
+
+
 def test_the_same_law_gives_the_same_through_all_interfaces(tmp_path):
     text = "time = [0, 1, 3]\nslip = [[0, 0], [2, 1], [1, 4]]\nnormal_force = [5, 7, 11]\n"
     text += "area = 2.0\nsubsteps = 3"
@@ -413,7 +430,7 @@ def test_problem_with_own_routine_and_output(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('[problem]\nname = "p11"', "did you mean 'P1'?"),
+        ('[problem]\nname = "p1x"', "did you mean 'P1'?"),
         ('[problem]\nname = "P1"\nmethod = "rigit"', "did you mean 'rigid'?"),
         ('[problem]\nname = "P1"\nmetod = "rigid"', "metod"),
         ('[problem]\nname = "P1"\nmethod = 3', "method"),

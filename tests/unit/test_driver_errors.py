@@ -144,9 +144,12 @@ def test_shapes_agree_with_the_core(c_routine, kind, face, contact):
         states=2, fields=3, temperatures=1, elastic_slip=0.1, derivatives=1, temperature_tangent=1,
     )  # fmt: skip
     made = DRIVERS[kind](routine, scene)
+    # What the explicit drivers keep to enforce sticking is there in such scenes only.
+    enforced = {"enforcement": "penalty", "stick_slope": 1.0} if kind == "explicit" else {}
+    keeper = DRIVERS[kind](routine, scene.replace(**enforced))
     for name, port in made.layout.ports.items():
         if port.role == "state":
-            assert made.array(name).size == np.prod(made.layout.shapes[name])
+            assert keeper.array(name).size == np.prod(made.layout.shapes[name])
             continue
         shape, dtype = made.layout.shapes[name], made.layout.dtypes[name]
         made.bind(**{name: np.zeros(shape, dtype, order="F")})
@@ -189,6 +192,18 @@ def test_an_exception_without_words_leaves_no_gap():
         usersub.CoefficientDriver(law, usersub.Scene(points=2)).evaluate()
 
 
+def test_both_coefficients_are_named():
+    @usersub.fric_coef(compiled=False)
+    def law(fCoef):
+        fCoef[0] = 0.5, -0.25
+
+    scene = usersub.Scene(points=1, dimension=3, anisotropic=1, elastic_slip=0.01)
+    made = usersub.StandardDriver(law, scene)
+    made.begin_increment(0.5)
+    with pytest.raises(RoutineError, match=r"\(fCoef 0.5 and -0.25, pressure 2\) at point 0"):
+        made.iterate(slip_increment=np.ones((2, 1), order="F"), pressure=np.full(1, 2.0))
+
+
 @pytest.mark.parametrize("wrong", ["0.1", None, True, np.array([0.1, 0.2]), 1j])
 def test_a_time_that_is_no_number(wrong):
     made = usersub.ExplicitDriver(law_that_raises(False), usersub.Scene(points=POINTS))
@@ -207,3 +222,26 @@ def test_a_state_that_cannot_be_saved_leaves_nothing(tmp_path):
     with pytest.raises(OSError):
         made.state.save(tmp_path / "folder")
     assert [p.name for p in tmp_path.iterdir()] == ["folder"]
+
+
+@usersub.fric_coef(generation="2022")
+def warm(fCoef, tempAvg):
+    fCoef[0, 0] = tempAvg[0]
+
+
+@usersub.fric_coef(generation="2022")
+def cold(fCoef):
+    fCoef[0, 0] = 0.3
+
+
+@pytest.mark.parametrize(
+    ("maker", "name"),
+    [(usersub.CoefficientDriver, "temperature"), (usersub.StandardDriver, "temperature_main")],
+)
+def test_temperatures_that_the_scene_does_not_have(maker, name):
+    """They would be zero in the routine without a word."""
+    scene = usersub.Scene(points=2, dimension=2, elastic_slip=1.0)
+    with pytest.raises(SceneError, match=f"'{name}' is given, but the scene has no temperatures"):
+        maker(warm, scene).bind(**{name: np.ones(2)})
+    maker(cold, scene).bind(**{name: np.ones(2)})
+    maker(warm, scene.replace(temperatures=1)).bind(**{name: np.ones(2)})

@@ -19,7 +19,15 @@ import usersub
 from usersub import abi
 from usersub.errors import AbiError, CompileError, RoutineError
 from usersub.routine import python
-from usersub.routine.routine import BLOCK, FULL, READS, READS_AND_WRITES, UNUSED, WRITES
+from usersub.routine.routine import (
+    BLOCK,
+    FULL,
+    POINTS,
+    READS,
+    READS_AND_WRITES,
+    UNUSED,
+    WRITES,
+)
 from usersub.statuses import STATUSES
 
 RAISED = next(s.value for s in STATUSES if s.name == "ROUTINE_RAISED")
@@ -83,6 +91,11 @@ class Call:
         if entry.style == BLOCK:
             function = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(entry.address)
             return function(ctypes.addressof(self.argv))
+        if entry.style == POINTS:
+            types = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int32, ctypes.c_void_p]
+            function = ctypes.CFUNCTYPE(ctypes.c_int, *types)(entry.address)
+            stride, done = (ctypes.c_int64 * len(self.argv))(), ctypes.c_int32(-1)
+            return function(self.argv, stride, 1, ctypes.addressof(done))
         texts = [a for a in self.face.args if a.kind == "char"]
         types = [ctypes.c_void_p] * len(self.argv) + [ctypes.c_size_t] * len(texts)
         function = ctypes.CFUNCTYPE(ctypes.c_int, *types)(entry.address)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from usersub.errors import SceneError
 from usersub.scenefile import run_scene
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -39,12 +40,21 @@ def wear(run) -> None:
     np.testing.assert_allclose(run.history.columns["mobilised"][-1, 0], mu, rtol=1e-12)
 
 
+def run_in(run) -> None:
+    """The coefficient follows the slip so far, of which the elastic slip is no part."""
+    state, tau = run.history.columns["state"][:, 0], run.history.columns["mobilised"][:, 0]
+    mu = 0.3 - 0.2 * np.exp(-state[-1, 1] / 4.0)
+    np.testing.assert_allclose(tau[-1], mu, rtol=1e-12)
+    # 7 of motion, less the allowable elastic slip at first and twice that at each of the 3 turns.
+    np.testing.assert_allclose(state[-1, 1], 7.0 - 0.005 * 7, rtol=1e-12)
+
+
 def block(run) -> None:
     """The block stops when and where it should."""
     assert run.ok and run.problem[0].error <= run.problem[0].tolerance
 
 
-CHECKS = {"decay.toml": decay, "wear.toml": wear, "block.toml": block}
+CHECKS = {"decay.toml": decay, "wear.toml": wear, "run_in.toml": run_in, "block.toml": block}
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -54,3 +64,13 @@ def test_example(name, copied):
 
 def test_every_example_is_checked():
     assert set(NAMES) == set(CHECKS)
+
+
+def test_vfric_coef_has_no_state_variables(tmp_path):
+    file = tmp_path / "scene.toml"
+    file.write_text(
+        'routine = "coulomb"\ninterface = "vfric_coef"\nprops = [0.1]\n[scene]\nstates = 2\n'
+        "[history]\ntime = [0, 1]\nslip = [[0, 0], [1, 0]]\npressure = 1.0\n"
+    )
+    with pytest.raises(SceneError, match="'states' = 2; expected 0"):
+        run_scene(file)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line: `usersub demo | run | deck | info | new | abi | paths`."""
+"""The command line: `usersub demo | run | deck | laws | fit | info | new | ...`."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ _LAZY = {
     "demo": ("usersub.cli.demo", "Run problems with known answers through every interface."),
     "run": ("usersub.cli.run", "Run a scene file: a routine through a history or a problem."),
     "deck": ("usersub.cli.deck", "Tell what an input deck says of friction, and what runs."),
+    "laws": ("usersub.cli.laws", "List the shipped laws, or tell all of one."),
+    "fit": ("usersub.cli.fit", "Find the properties of a law that fit measured coefficients."),
     "info": ("usersub.cli.info", "Tell what a routine file holds, uses and writes."),
-    "new": ("usersub.cli.new", "Make a routine, a test and a scene that run at once."),
+    "new": ("usersub.cli.new", "Make a routine or a law, a test and a scene that run at once."),
     "abi": ("usersub.cli.abi", "Print the argument lists of the interfaces."),
     "paths": ("usersub.cli.paths", "Print the folders that hosts build against."),
 }

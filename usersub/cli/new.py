@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`usersub new`: a routine, a test and a scene that run at once."""
+"""`usersub new`: a routine or a law, a test and a scene that run at once."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from usersub.errors import Error
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _SUFFIX = {"python": ".py", "c": ".c", "fortran": ".f90"}
+#: Kinds of law: what the function of a contact point gives.
+KINDS = ("coefficient", "strength", "traction", "bristle")
 _IMPORTS = "from pathlib import Path\n\nimport numpy as np\nimport pytest\nimport usersub"
 _IMPORTS_FORTRAN = "import shutil\n" + _IMPORTS
 _SKIP_FORTRAN = """
@@ -50,22 +52,29 @@ def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
     examples=(
         "usersub new my_friction --interface vfric --language python",
         "usersub new decay -i fric_coef -l fortran --dir laws",
+        "usersub new my_law --law coefficient --language python",
     ),
 )
 @click.argument("name", callback=_name)
 @click.option(
     "--interface",
     "-i",
-    required=True,
     callback=interface_name,
-    help=f"One of {', '.join(abi.NAMES)}.",
+    help=f"Make a routine behind one of {', '.join(abi.NAMES)}.",
+)
+@click.option(
+    "--law",
+    type=click.Choice(KINDS, case_sensitive=False),
+    help="Make a law: one function of a contact point, behind every interface that can carry it. "
+    "It gives a friction coefficient, the stress at which the point slips, the stress along the "
+    "slip (viscous), or the traction of a motion, with memory (bristle).",
 )
 @click.option(
     "--language",
     "-l",
     required=True,
     type=click.Choice(list(_SUFFIX), case_sensitive=False),
-    help="Language of the routine.",
+    help="Language of the routine or law.",
 )
 @click.option(
     "--dir",
@@ -76,13 +85,28 @@ def _name(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
     help="Folder of the files; made if it is not there.",
 )
 @common("new")
-def command(name: str, interface: str, language: str, folder: Path, as_json: bool) -> None:
+def command(
+    name: str,
+    interface: str | None,
+    law: str | None,
+    language: str,
+    folder: Path,
+    as_json: bool,
+) -> None:
     """Make NAME.py, NAME.c or NAME.f90 (a small friction law), test_NAME.py and NAME.toml.
 
-    The test passes and the scene runs at once; change the law from there. Existing files are never
-    overwritten.
+    With --interface the file is a routine behind one interface, with --law one function behind
+    every interface that can carry it. The test passes and the scene runs at once; change the law
+    from there. Existing files are never overwritten.
     """
-    files = {folder / file: text for file, text in contents(name, interface, language).items()}
+    if (interface is None) == (law is None):
+        raise click.UsageError("give one of --interface (a routine) and --law (a law)")
+    texts = (
+        contents(name, interface, language)
+        if interface is not None
+        else law_contents(name, str(law), language)
+    )
+    files = {folder / file: text for file, text in texts.items()}
     for path in files:
         if path.exists():
             raise Error(f"{path} exists already and is not overwritten; choose another name")
@@ -98,7 +122,8 @@ def command(name: str, interface: str, language: str, folder: Path, as_json: boo
             raise Error(f"{path} cannot be written: {error.strerror}") from error
     source, test, scene = (relative(p) for p in files)
     if as_json:
-        kinds = zip(("routine", "test", "scene"), (source, test, scene), strict=True)
+        first = "routine" if law is None else "law"
+        kinds = zip((first, "test", "scene"), (source, test, scene), strict=True)
         print_json("new", [{"kind": k, "path": p} for k, p in kinds])
         return
     click.echo(f"made {source}, {test}, {scene}\n")
@@ -106,22 +131,37 @@ def command(name: str, interface: str, language: str, folder: Path, as_json: boo
 
 
 def contents(name: str, interface: str, language: str) -> dict[str, str]:
-    """File name -> text of routine, test and scene."""
+    """File name -> text of a routine behind one interface, its test and its scene."""
     face = abi.interface(interface)
-    suffix = _SUFFIX[language]
-    fortran = language == "fortran"
-    values = {
-        "IMPORTS": _IMPORTS_FORTRAN if fortran else _IMPORTS,
-        "SKIP": _SKIP_FORTRAN if fortran else "",
-        "HEADER": fortran_header(face) if fortran else "",
-        "PARAMETERS": f"USUB_{face.key.upper()}_PARAMETERS",
-        "FILE": name + suffix,
-        "NAME": name,
-    }
+    values = _values(name, language)
+    values["HEADER"] = fortran_header(face) if language == "fortran" else ""
+    values["PARAMETERS"] = f"USUB_{face.key.upper()}_PARAMETERS"
     return {
-        name + suffix: _filled(face.name + suffix, values),
+        values["FILE"]: _filled(face.name + _SUFFIX[language], values),
         f"test_{name}.py": _filled(f"test_{face.name}.py", values),
         name + ".toml": _filled(face.name + ".toml", values),
+    }
+
+
+def law_contents(name: str, kind: str, language: str) -> dict[str, str]:
+    """File name -> text of a law of one of KINDS, its test and its scene."""
+    values = _values(name, language)
+    values["EXACT"] = _filled(f"exact_{kind}.py", {})
+    return {
+        values["FILE"]: _filled(f"law_{kind}{_SUFFIX[language]}", values),
+        f"test_{name}.py": _filled("test_law.py", values),
+        name + ".toml": _filled(f"law_{kind}.toml", values),
+    }
+
+
+def _values(name: str, language: str) -> dict[str, str]:
+    """What the places of all templates are filled with; SKIP and IMPORTS hold a FILE."""
+    fortran = language == "fortran"
+    return {
+        "IMPORTS": _IMPORTS_FORTRAN if fortran else _IMPORTS,
+        "SKIP": _SKIP_FORTRAN if fortran else "",
+        "FILE": name + _SUFFIX[language],
+        "NAME": name,
     }
 
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -18,6 +17,8 @@ from usersub.deck.words import (
     written,
     written_name,
 )
+from usersub.interaction.amplitude import Amplitude as Curve
+from usersub.interaction.amplitude import value_at
 
 #: Parameters of *AMPLITUDE.
 KINDS = {
@@ -84,15 +85,17 @@ class Amplitude:
     def value(self, time: float) -> float:
         """The curve at a time: constant outside its points; smooth steps have no slope or
         curvature at theirs."""
-        times = [t for t, _ in self.points]
-        after = bisect_right(times, time)
-        if after == 0 or after == len(times):
-            return self.points[max(after - 1, 0)][1]
-        (t0, v0), (t1, v1) = self.points[after - 1 : after + 1]
-        share = (time - t0) / (t1 - t0)
-        if self.definition == "SMOOTH STEP":
-            share = share**3 * (10.0 - 15.0 * share + 6.0 * share * share)
-        return v0 + (v1 - v0) * share
+        return value_at(self.points, time, smooth=self.definition == "SMOOTH STEP")
+
+    def curve(self) -> Curve:
+        """The curve by which friction changes.
+
+        Raises:
+            DeckError: friction cannot change by it; the message says why.
+        """
+        if self.unfit:
+            refuse(self.where, f"the amplitude '{self.name}': {self.unfit}")
+        return Curve(self.points, smooth=self.definition == "SMOOTH STEP")
 
     @property
     def unfit(self) -> str:

@@ -3,22 +3,18 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from usersub.deck.words import Where
 
 if TYPE_CHECKING:
+    from usersub import interaction
     from usersub.routine.routine import Routine
 
 #: Solvers and dialects that a deck may be written for.
 SOLVERS = ("standard", "explicit")
 DIALECTS = ("commercial", "calculix")
-
-#: Share of the transition that is left at the second point where test data have no third.
-REMAINDER = Fraction(1, 20)
 
 
 @dataclass(frozen=True)
@@ -144,6 +140,7 @@ class Friction:
         stick_slope: the same in the CalculiX dialect, or None.
         dialect: "commercial" or "calculix".
         solver: solver of the deck, or None if nothing tells.
+        connector: whether it acts in a connector.
         where: its line.
     """
 
@@ -155,6 +152,7 @@ class Friction:
     stick_slope: float | None = None
     dialect: str = "commercial"
     solver: str | None = field(default=None, compare=False)
+    connector: bool = field(default=False, compare=False)
     where: Where = field(default=Where("deck", 0), compare=False)
 
     def __str__(self) -> str:
@@ -248,53 +246,22 @@ class Friction:
 
         return routine(self, path, language=language, precision=precision)
 
+    def acting(self, path: Any = None, *, language: str = "python") -> interaction.Friction:
+        """The friction as `usersub.Interaction` takes it; arguments and errors as `routine`."""
+        from usersub.deck.running import acting
+
+        return acting(self, path, language=language)
+
 
 def decay_from_test_data(
     mu1: float, mu2: float, rate2: float, mu_inf: float | None = None
 ) -> ExponentialDecay:
-    """Static and kinetic coefficient and decay coefficient from two or three measured points.
-
-    Without `mu_inf`, 5 % of the transition are left at the second point. The results are rounded
-    once (`dc` by the logarithm's own rounding).
+    """Exponential decay from two or three measured points, as `usersub.laws.decay_data.decay`.
 
     Raises:
-        ValueError: no exponential decay goes through the points; the message says why.
+        SceneError (a ValueError): no exponential decay goes through the points, and why.
     """
-    data = TestData(mu1, mu2, rate2, mu_inf)
-    if min(mu1, mu2, 0.0 if mu_inf is None else mu_inf) < 0.0:
-        raise ValueError("a friction coefficient is negative")
-    if not rate2 > 0.0:
-        raise ValueError(f"the slip rate of the second point is {rate2:g}, expected more than 0")
-    if mu1 == mu2:
-        raise ValueError(
-            f"both coefficients are {mu1:g}, so nothing decays; give a constant coefficient"
-        )
-    if mu_inf is None:
-        limit = (Fraction(mu2) - REMAINDER * Fraction(mu1)) / (1 - REMAINDER)
-        if limit < 0:
-            raise ValueError(
-                f"the kinetic coefficient would be {float(limit):g}, below 0, as 5 % of the "
-                f"transition from {mu1:g} are left at {mu2:g}; give it on a third line"
-            )
-        inverse = 1 / REMAINDER
-    else:
-        limit = Fraction(mu_inf)
-        if not min(mu1, mu_inf) < mu2 < max(mu1, mu_inf):
-            raise ValueError(
-                f"the second coefficient {mu2:g} is not between the static one {mu1:g} and the "
-                f"kinetic one {mu_inf:g}"
-            )
-        inverse = (Fraction(mu1) - limit) / (Fraction(mu2) - limit)
-    # near one the logarithm needs the distance from one, which only fractions have exactly
-    logarithm = math.log1p(float(inverse - 1)) if inverse < 2 else _log(inverse)
-    dc = logarithm / rate2
-    if not (math.isfinite(dc) and dc > 0.0):
-        raise ValueError(f"the decay coefficient would be {dc:g}, beyond double precision")
-    return ExponentialDecay(mu1, float(limit), dc, data)
+    from usersub.laws.decay_data import decay
 
-
-def _log(value: Fraction) -> float:
-    try:
-        return math.log(float(value))
-    except OverflowError:
-        return math.log(value.numerator) - math.log(value.denominator)
+    mus, muk, dc = decay(mu1, mu2, rate2, mu_inf)
+    return ExponentialDecay(mus, muk, dc, TestData(mu1, mu2, rate2, mu_inf))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from usersub.deck.procedures import PROCEDURES
 from usersub.deck.words import Where, alternatives, refuse, show, squeeze
 
 #: Keywords that are read, in full.
@@ -86,7 +87,7 @@ _RIVALS = (
     "INTEGRATION",
 )
 
-_EXACT = {squeeze(k): k for k in (*_RIVALS, *SUBOPTIONS, *OTHER_OWNERS, *OURS)}
+_EXACT = {squeeze(k): k for k in (*_RIVALS, *PROCEDURES, *SUBOPTIONS, *OTHER_OWNERS, *OURS)}
 
 
 def keyword(word: str, where: Where) -> str:

@@ -7,10 +7,15 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from usersub.deck.amplitude import Amplitude
 from usersub.deck.friction import Friction
 from usersub.deck.words import Note, Where, written, written_name
+
+if TYPE_CHECKING:
+    from usersub import interaction
+    from usersub.driver.scene import Scene
 
 _NOWHERE = Where("deck", 0)
 
@@ -32,6 +37,11 @@ class Interaction:
     area: float | None = None
     user: bool = False
     where: Where = field(default=_NOWHERE, compare=False)
+
+    def contact_area(self, solver: str = "standard") -> float:
+        """Contact area of each node of a node-based secondary surface: 1 unless the deck gives
+        another one, and always 1 in the explicit solver."""
+        return 1.0 if self.area is None or solver == "explicit" else self.area
 
     def __str__(self) -> str:
         lines = [f"*SURFACE INTERACTION, NAME={written_name(self.name)}" + ", USER" * self.user]
@@ -182,6 +192,32 @@ class Deck:
             if amplitude.name.upper() == name.upper():
                 return amplitude
         raise KeyError(f"no amplitude is called '{name}'")
+
+    def interaction(
+        self,
+        name: str,
+        scene: Scene,
+        *,
+        routine: str | os.PathLike | None = None,
+        language: str = "python",
+        reuse: bool = False,
+    ) -> interaction.Interaction:
+        """The interaction as one that runs, with its changes in the steps.
+
+        Args:
+            name: of the interaction.
+            scene: the host's model, without the settings of the friction.
+            routine: file of a user routine, where the deck has USER.
+            language: of the shipped laws.
+            reuse: as of the drivers.
+
+        Raises:
+            KeyError: no interaction is called so.
+            DeckError: a friction or a change of it does not run; the message says why.
+        """
+        from usersub.deck.stepping import interaction
+
+        return interaction(self, name, scene, routine=routine, language=language, reuse=reuse)
 
     def write(self, path: str | os.PathLike | None = None) -> str:
         """The friction part of the deck as text, also written to `path` if given.

@@ -7,8 +7,8 @@ import os
 from collections.abc import Iterable
 from dataclasses import replace
 
-from usersub.deck import amplitude, blocks, rules
-from usersub.deck.friction import DIALECTS, SOLVERS, Friction, User
+from usersub.deck import amplitude, blocks, procedures, rules
+from usersub.deck.friction import DIALECTS, SOLVERS, User
 from usersub.deck.keywords import OTHER_OWNERS, SUBOPTIONS, keyword
 from usersub.deck.lines import Lines
 from usersub.deck.model import Change, Deck, Interaction, OtherFriction, Step
@@ -46,18 +46,6 @@ _STEP = {
     "UNSYMM": "name",
 }
 _OWNER = {"ELSET": "name"}
-#: Procedures that tell the solver: the explicit one with the parameter EXPLICIT, else the implicit.
-_PROCEDURES = (
-    "STATIC",
-    "DYNAMIC",
-    "DYNAMIC TEMPERATURE-DISPLACEMENT",
-    "VISCO",
-    "COUPLED TEMPERATURE-DISPLACEMENT",
-    "STEADY STATE TRANSPORT",
-    "SOILS",
-    "GEOSTATIC",
-)
-_FLAGS = ("EXPLICIT", "RIKS")
 #: Warnings that are kept; a deck of a gigabyte may have one on every line.
 _MOST = 1000
 
@@ -161,7 +149,7 @@ class _Reader:
             self.owner = name, given.get("ELSET", "")
             self.lines.skip()
         else:
-            if self.in_step and not self.steps[-1].procedure and name in _PROCEDURES:
+            if self.in_step and not self.steps[-1].procedure and name in procedures.PROCEDURES:
                 self._procedure(name, text, where)
             self.lines.skip()
 
@@ -266,6 +254,7 @@ class _Reader:
         else:
             if owner[0] == "CONNECTOR FRICTION":
                 rules.check_connector(found, given)
+                found = replace(found, connector=True)
             step = self.steps[-1].number if self.in_step else 0
             self.others.append(OtherFriction(*owner, found, step))
 
@@ -310,28 +299,13 @@ class _Reader:
         self.lines.skip()
 
     def _procedure(self, name: str, text: str, where: Where) -> None:
-        parts = split(self.lines.continued(text), where)[1:]
-        flags = [f for p in parts if isinstance(f := choose(p.partition("=")[0], _FLAGS), str)]
-        flags = [f for f in flags if (f == "RIKS") == (name == "STATIC")]
-        self.steps[-1] = replace(self.steps[-1], procedure=", ".join([name, *flags]))
+        words = procedures.procedure(name, split(self.lines.continued(text), where)[1:])
+        self.steps[-1] = replace(self.steps[-1], procedure=words)
         if self.given_solver is None:
-            solver = "explicit" if "EXPLICIT" in flags else "standard"
+            solver = procedures.solver(words)
             if self.solver not in (None, solver):
                 refuse(where, f"*{name} is of the {solver} solver, earlier steps are not")
             self.solver = solver
-        if "RIKS" in flags:
-            for interaction in self.interactions.values():
-                found = self._in_effect(interaction)
-                if found is not None and found.rate_dependent:
-                    text = f"{interaction.name} depends on the slip rate, which a Riks step lacks"
-                    self.warn(Note(where, text))
-
-    def _in_effect(self, interaction: Interaction) -> Friction | None:
-        found = interaction.friction
-        for change in self.changes:
-            if change.interaction == interaction.name:
-                found = interaction.friction if change.reset else change.friction
-        return found
 
     # The end.
 
@@ -347,6 +321,7 @@ class _Reader:
             amplitudes=tuple(self.amplitudes.values()),
             others=tuple(map(self._checked, self.others)),
         )
+        rules.check_riks(deck)
         if not deck.interactions and not deck.others:
             self.warn(Note(Where(self.lines.name, 0), "the deck defines no interaction"))
         return replace(deck, warnings=tuple(self.notes))

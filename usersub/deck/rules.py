@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from usersub.deck.friction import (
     ElasticSlip,
@@ -15,7 +16,11 @@ from usersub.deck.friction import (
     SlipTolerance,
     User,
 )
+from usersub.deck.procedures import is_riks
 from usersub.deck.words import Note, Parameters, Where, choose, refuse, show
+
+if TYPE_CHECKING:
+    from usersub.deck.model import Deck
 
 #: Parameters of *FRICTION by dialect.
 KINDS = {
@@ -152,6 +157,8 @@ def check_solver(friction: Friction, solver: str | None, warn: Callable[[Note], 
         warn(Note(where, "TAUMAX = 0 means no limit in the implicit solver; the explicit refuses"))
     if isinstance(law, User):
         _check_user(law, solver, where, warn)
+        if friction.anisotropic and law.kind != "COEFFICIENT":
+            warn(Note(where, "ANISOTROPIC has no meaning with a routine that gives tractions"))
     elif isinstance(law, ExponentialDecay) and law.muk > law.mus:
         text = f"the kinetic coefficient {law.muk:g} is above the static one {law.mus:g}"
         warn(Note(where, text))
@@ -179,3 +186,20 @@ def check_connector(friction: Friction, given: Parameters) -> None:
     for name in _NOT_FOR_CONNECTORS:
         if name in given:
             refuse(friction.where, f"*FRICTION: {name} cannot be used for connectors")
+
+
+def check_riks(deck: Deck) -> None:
+    """Refuses friction that depends on the slip rate in static Riks steps: they have no velocity.
+
+    Raises:
+        DeckError: at the friction's line.
+    """
+    for step in filter(lambda step: is_riks(step.procedure), deck.steps):
+        for interaction in deck:
+            friction = deck.friction(interaction.name, step.number)
+            if friction is not None and friction.rate_dependent:
+                refuse(
+                    friction.where,
+                    f"*FRICTION: {interaction.name} depends on the slip rate, which the static "
+                    f"Riks step of {step.where} does not have",
+                )

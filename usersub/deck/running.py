@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""From a friction definition to a shipped law and a scene, where a driver carries it."""
+"""From a friction definition to a shipped law and settings of a scene."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +16,12 @@ from usersub.deck.friction import (
     Table,
     User,
 )
+from usersub.deck.grid import full_grid
 from usersub.deck.words import refuse
 
 if TYPE_CHECKING:
+    from usersub import interaction
+    from usersub.laws import LawObject
     from usersub.routine.routine import Routine
 
 #: Interface by solver and kind of routine.
@@ -31,47 +32,46 @@ _USER = {
     ("explicit", "FRICTION"): "vfriction",
     ("explicit", "COEFFICIENT"): "vfric_coef",
 }
-#: Largest table, in numbers, that an uneven grid is filled up to.
-_LARGEST = 1_000_000
+#: Interfaces of shipped laws by solver, the first that carries a law.
+_LAW = {"standard": ("fric_coef", "fric"), "explicit": ("vfric_coef", "vfriction")}
+
+
+#: Slip tolerance of connectors where the deck gives none; elsewhere it is that of the scene.
+CONNECTOR_TOLERANCE = 1e-4
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How a friction runs: `interface`, shipped `law` ("" for a user's file), `settings`; or the
-    `reason` why it does not."""
+    """How a friction runs: `interface`, shipped `law` with its properties (None for a user's
+    file), `settings` of the scene; or the `reason` why it does not."""
 
     interface: str = ""
-    law: str = ""
+    law: LawObject | None = None
     settings: dict[str, Any] = field(default_factory=dict)
     reason: str = ""
 
 
 def plan(friction: Friction) -> Plan:
-    """How the friction runs today."""
+    """How the friction runs."""
     solver = friction.solver or _solver(friction)
     law = friction.law
-    reason = _obstacle(friction, solver)
-    if reason:
-        return Plan(reason=reason)
     if isinstance(law, User):
-        settings: dict[str, Any] = {"props": law.properties}
-        if law.depvar:
-            settings["states"] = law.depvar
-        return Plan(_USER[solver, law.kind], "", {**settings, **_limit(friction, law.kind)})
-    interface = "fric_coef" if solver == "standard" else "vfric_coef"
-    settings = _limit(friction, "COEFFICIENT")
-    if isinstance(law, ExponentialDecay):
-        props = (law.mus, law.muk, law.dc)
-        return Plan(interface, "exponential_decay", {"props": props, **settings})
-    assert isinstance(law, Table)  # _obstacle has seen to it
-    if law.constant:
-        return Plan(interface, "coulomb", {"props": law.rows[0].mu, **settings})
-    filled = _props(law)
-    if filled is None:
-        return Plan(reason=f"the uneven table would need more than {_LARGEST} numbers")
-    if len({row.temperature for row in law.rows}) > 1:
-        settings["temperatures"] = 1
-    return Plan(interface, "coulomb_tabulated", {"props": filled, **settings})
+        return _user(friction, law, solver)
+    shipped, reason = _shipped(friction, solver)
+    if shipped is None:
+        return Plan(reason=reason)
+    interface = next(name for name in _LAW[solver] if name in shipped.interfaces)
+    settings: dict[str, Any] = {"props": shipped.props} if shipped.props else {}
+    states = shipped.states(interface)
+    if states:
+        settings["states"] = states
+    if shipped.anisotropic:
+        settings["anisotropic"] = 1
+    if isinstance(law, Table):
+        settings.update(_surfaces(law))
+    if not isinstance(law, Rough):
+        settings.update(_enforcement(friction, solver))
+    return Plan(interface, shipped, settings)
 
 
 def _solver(friction: Friction) -> str:
@@ -82,64 +82,106 @@ def _solver(friction: Friction) -> str:
     return "explicit" if explicit or slope is not None else "standard"
 
 
-def _obstacle(friction: Friction, solver: str) -> str:
-    """Why no driver carries the friction; "" where one does."""
+def _user(friction: Friction, law: User, solver: str) -> Plan:
+    if friction.taumax and law.kind != "COEFFICIENT":
+        reason = "TAUMAX does not limit the tractions of a user routine; let the routine do it"
+        return Plan(reason=reason)
+    settings: dict[str, Any] = {"props": law.properties}
+    if law.depvar:
+        settings["states"] = law.depvar
+    if law.kind == "COEFFICIENT":
+        if friction.anisotropic:
+            settings["anisotropic"] = 1
+        settings.update(_enforcement(friction, solver))
+    return Plan(_USER[solver, law.kind], None, settings)
+
+
+def _shipped(friction: Friction, solver: str) -> tuple[LawObject | None, str]:
+    """The shipped law, or why there is none."""
+    from usersub import laws
+
     law = friction.law
     if isinstance(law, Rough):
-        return "rough friction needs a driver that allows no slip, and the drivers have none"
-    if isinstance(friction.method, Lagrange):
-        return "Lagrange multipliers are not what the driver of FRIC_COEF enforces sticking by"
-    if friction.taumax and isinstance(law, User) and law.kind != "COEFFICIENT":
-        return "TAUMAX does not limit the tractions of a user routine; let the routine do it"
-    if friction.taumax and solver == "explicit":
-        return "the explicit driver has no limit on the shear stress (TAUMAX)"
-    if friction.stick_slope is not None and solver == "standard":
-        return (
-            "a constant stick slope is not what the implicit driver has: its elastic slip at the "
-            "limit is a constant length"
-        )
-    if isinstance(law, User):
-        return ""
+        slope = friction.shear_traction_slope
+        return (laws.rough() if slope is None else laws.softened_rough(kappa=slope)), ""
+    if isinstance(law, ExponentialDecay):
+        return laws.exponential_decay(mus=law.mus, muk=law.muk, dc=law.dc), ""
+    assert isinstance(law, Table)
+    if friction.anisotropic and solver == "explicit":
+        return None, "the explicit interfaces do not tell the axes of anisotropic friction"
+    if law.constant:
+        mu = law.rows[0].mu
+        if friction.anisotropic:
+            return laws.anisotropic(mu1=mu[0], mu2=mu[1]), ""
+        return laws.coulomb(mu=mu[0]), ""
+    grid = full_grid(law)
+    if isinstance(grid, str):
+        return None, grid
+    rates, pressures, temperatures, *fields = grid.axes
+    axes = {
+        "rates": rates,
+        "pressures": pressures,
+        "temperatures": temperatures,
+        "fields": fields,
+    }
     if friction.anisotropic:
-        return "no shipped law sets two coefficients"
-    if isinstance(law, Table) and not law.constant:
-        for k in range(law.dependencies):
-            if len({row.fields[k] for row in law.rows}) > 1:
-                return f"no shipped law depends on a field variable (here number {k + 1})"
-    return ""
+        first, second = grid.tables
+        return laws.anisotropic_tabulated(**axes, table1=first, table2=second), ""
+    return laws.coulomb_tabulated(**axes, table=grid.tables[0]), ""
 
 
-def _limit(friction: Friction, kind: str) -> dict[str, Any]:
-    """Settings of the penalty method."""
+def _surfaces(table: Table) -> dict[str, Any]:
+    """What the surfaces need for a table: temperatures and fields, if it depends on them."""
     found: dict[str, Any] = {}
-    if friction.taumax and kind == "COEFFICIENT":
+    if table.constant:
+        return found
+    if len({row.temperature for row in table.rows}) > 1:
+        found["temperatures"] = 1
+    if table.dependencies:
+        found["fields"] = table.dependencies
+    return found
+
+
+def _enforcement(friction: Friction, solver: str) -> dict[str, Any]:
+    """Settings of the method."""
+    found: dict[str, Any] = {}
+    if friction.taumax:
         found["shear_limit"] = friction.taumax
     if isinstance(friction.method, ElasticSlip):
         found["elastic_slip"] = friction.method.value
     elif isinstance(friction.method, SlipTolerance):
         found["slip_tolerance"] = friction.method.value
+    elif isinstance(friction.method, Lagrange):
+        found["enforcement"] = "lagrange"
+    elif friction.connector and solver == "standard":
+        found["slip_tolerance"] = CONNECTOR_TOLERANCE
+    slope = friction.shear_traction_slope if solver == "explicit" else friction.stick_slope
+    if slope is not None:
+        found["stick_slope"] = slope
+        if solver == "explicit":
+            found["enforcement"] = "penalty"
+    return found
+
+
+def _planned(friction: Friction) -> Plan:
+    found = plan(friction)
+    if found.reason:
+        refuse(friction.where, f"the friction does not run: {found.reason}")
     return found
 
 
 def scene_settings(friction: Friction) -> dict[str, Any]:
     """As `Friction.scene_settings`."""
-    found = plan(friction)
-    if found.reason:
-        refuse(friction.where, f"the friction does not run: {found.reason}")
-    return dict(found.settings)
+    return dict(_planned(friction).settings)
 
 
 def routine(friction: Friction, path: Any, *, language: str, precision: str) -> Routine:
     """As `Friction.routine`."""
-    found = plan(friction)
-    if found.reason:
-        refuse(friction.where, f"the friction does not run: {found.reason}")
-    if found.law:
+    found = _planned(friction)
+    if found.law is not None:
         if path is not None:
             refuse(friction.where, "the deck names no user routine, but a file is given")
-        from usersub import laws
-
-        return laws.routine(found.law, found.interface, language, precision=precision)
+        return found.law.behind(found.interface, language, precision)
     if path is None:
         refuse(friction.where, f"the file of the routine {found.interface.upper()} is not given")
     import usersub
@@ -148,55 +190,18 @@ def routine(friction: Friction, path: Any, *, language: str, precision: str) -> 
     return file[found.interface]
 
 
-# Tables.
+def acting(friction: Friction, path: Any, *, language: str) -> interaction.Friction:
+    """As `Friction.acting`."""
+    from usersub.interaction import Friction as Acting
+
+    found = _planned(friction)
+    if found.law is None:
+        own = routine(friction, path, language=language, precision="double")
+        return Acting(own, **found.settings)
+    del path
+    of_law = ("anisotropic", "props", "states")
+    settings = {k: v for k, v in found.settings.items() if k not in of_law}
+    return Acting(found.law.in_language(language), **settings)
 
 
-def _props(table: Table) -> tuple[float, ...] | None:
-    """Properties of `coulomb_tabulated`; None where they would be too many.
-
-    A grid that is not full is filled up: each variable is interpolated within its own points, as
-    the table would be, so that the full grid is the same function.
-    """
-    grids = [_points(row.slip_rate for row in table.rows)]
-    grids.append(_points(row.pressure for row in table.rows))
-    grids.append(_points(row.temperature for row in table.rows))
-    if len(grids[0]) * len(grids[1]) * len(grids[2]) > _LARGEST:
-        return None
-    tree: dict[float, dict[float, dict[float, float]]] = {}
-    for row in table.rows:
-        by_pressure = tree.setdefault(row.temperature or 0.0, {})
-        by_pressure.setdefault(row.pressure or 0.0, {})[row.slip_rate or 0.0] = row.mu[0]
-    rates, pressures, temperatures = grids
-    planes = {t: _plane(by, rates, pressures) for t, by in tree.items()}
-    values = [mu for t in temperatures for mu in planes[t]]
-    sizes = (len(rates), len(pressures), len(temperatures))
-    return (*map(float, sizes), *rates, *pressures, *temperatures, *values)
-
-
-def _points(values: Any) -> list[float]:
-    return sorted({value or 0.0 for value in values})
-
-
-def _plane(
-    by_pressure: dict[float, dict[float, float]], rates: list[float], pressures: list[float]
-) -> list[float]:
-    """Coefficients at one temperature, the slip rate running fastest."""
-    lines = {p: [_between(curve, rate) for rate in rates] for p, curve in by_pressure.items()}
-    columns = [{p: line[i] for p, line in lines.items()} for i in range(len(rates))]
-    return [_between(column, p) for p in pressures for column in columns]
-
-
-def _between(curve: dict[float, float], at: float) -> float:
-    """Linear between the points of a curve, which ascend, constant outside."""
-    if at in curve:
-        return curve[at]
-    points: Sequence[float] = list(curve)
-    k = bisect_right(points, at)
-    if k == 0 or k == len(points):
-        return curve[points[max(k - 1, 0)]]
-    low, high = points[k - 1], points[k]
-    share = (at - low) / (high - low)
-    return curve[low] + (curve[high] - curve[low]) * share
-
-
-__all__ = ["Plan", "plan", "routine", "scene_settings"]
+__all__ = ["Plan", "acting", "plan", "routine", "scene_settings"]

@@ -16,6 +16,7 @@ from usersub.core import ffi, lib, text
 from usersub.driver import handles, status
 from usersub.driver.arrays import Layout
 from usersub.driver.clock import Clock, int32
+from usersub.driver.law import LawLike, routine_and_scene
 from usersub.driver.plan import Plan, PlanRow
 from usersub.driver.scene import Scene
 from usersub.driver.state import State
@@ -46,7 +47,9 @@ class Driver:
     GIL.
 
     Args:
-        routine: what a decorator, `usersub.load` or `usersub.from_pointer` gave.
+        routine: what a decorator, `usersub.load` or `usersub.from_pointer` gave, or a law
+            (`usersub.laws.coulomb(mu=0.3)`, a law function), which brings its properties and its
+            number of state variables where the scene gives none.
         scene: what the host's model has.
         reuse: results are views of the driver's own memory, overwritten by the next call, instead
             of fresh copies.
@@ -58,15 +61,16 @@ class Driver:
     kind: ClassVar[str]
     interfaces: ClassVar[tuple[str, ...]]
 
-    def __init__(self, routine: Routine, scene: Scene, *, reuse: bool = False) -> None:
-        _check_types(type(self), routine, scene)
+    def __init__(self, routine: Routine | LawLike, scene: Scene, *, reuse: bool = False) -> None:
+        made, scene = routine_and_scene(self.kind, routine, scene)
+        _check_types(type(self), made, scene)
         handles.prepare_process()
-        face = routine.interface
-        self.routine, self.scene, self.reuse = routine, scene, reuse
-        self._title = f"{face.name.upper()} '{routine.name}'"
+        face = made.interface
+        self.routine, self.scene, self.reuse = made, scene, reuse
+        self._title = f"{face.name.upper()} '{made.name}'"
         self.layout = Layout(self._title, face.name, self.kind, scene)
-        self._entry = routine.entry(scene["precision"])
-        self._c_routine = handles.make_routine(routine, self._entry, scene["precision"])
+        self._entry = made.entry(scene["precision"])
+        self._c_routine = handles.make_routine(made, self._entry, scene["precision"])
         self._handle = handles.make_driver(self.kind, self._c_routine, scene)
         self._bound: dict[str, np.ndarray] = {}
         self._buffers: dict[str, Any] = {}
@@ -99,10 +103,21 @@ class Driver:
                 self.layout.port(name)
             else:
                 self.layout.check(name, array)
+                self._check_warm(name)
         after = {n: a for n, a in {**self._bound, **fresh}.items() if a is not None}
         self.layout.check_overlaps(after)
         for name, array in fresh.items():
             self._bind_one(name, array)
+
+    def _check_warm(self, name: str) -> None:
+        """Refuses temperatures of which the scene knows nothing, if the routine reads them."""
+        if not name.startswith("temperature") or self.scene["temperatures"]:
+            return
+        if any(row.used and row.argument.upper().startswith("TEMP") for row in self.plan.rows):
+            raise SceneError(
+                f"array '{name}' is given, but the scene has no temperatures and so the routine "
+                "would read zeros; expected temperatures=1 in the scene"
+            )
 
     def _bind_one(self, name: str, array: np.ndarray | None) -> None:
         if array is None:
@@ -129,6 +144,10 @@ class Driver:
         if view is None:
             raise SceneError(f"array '{name}' is not bound and the driver keeps none in this scene")
         return view
+
+    def keeps(self, name: str) -> bool:
+        """Whether there is an array called `name`: the host's or the driver's."""
+        return self._view(name) is not None
 
     def _view(self, name: str) -> np.ndarray | None:
         if name in self._bound:
@@ -187,7 +206,11 @@ class Driver:
             f"{self._title} ({self.routine.language}), {self.kind} driver, "
             f"{self.scene['precision']} precision, {self.scene['points']} contact points"
         )
-        return Plan(title, tuple(rows), block, threads)
+        return Plan(title, tuple(rows), block, threads, self._plan_notes())
+
+    def _plan_notes(self) -> tuple[str, ...]:
+        """What the driver does besides passing arguments, a line each."""
+        return ()
 
     @alone
     def save_state(self) -> bytes:
@@ -300,7 +323,7 @@ def _check_types(driver: type[Driver], routine: Routine, scene: Scene) -> None:
     if not isinstance(routine, Routine):
         raise SceneError(
             f"{driver.__name__} got {type(routine).__name__} as its routine; expected what a "
-            "decorator, usersub.load(...)['name'] or usersub.from_pointer gives"
+            "decorator, usersub.load(...)['name'] or usersub.from_pointer gives, or a law"
         )
     if not isinstance(scene, Scene):
         raise SceneError(

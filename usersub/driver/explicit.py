@@ -32,6 +32,32 @@ class ExplicitDriver(Driver):
     interfaces = ("vfric", "vfriction", "vfric_coef")
     _c_call = "usub_step"
 
+    @property
+    def elastic_energy(self) -> float:
+        """Elastic energy of all points (VFRIC_COEF by penalty enforcement), else 0.
+
+        It belongs to the last increment and to the areas that are bound now.
+        """
+        return lib.usub_elastic_energy(self._handle)
+
+    def _plan_notes(self) -> tuple[str, ...]:
+        scene, coefficient = self.scene, "coefficient" in self.layout.ports
+        penalty = scene["enforcement"] == "penalty" or (coefficient and scene["stick_slope"] > 0.0)
+        slope = f"stiffness {scene['stick_slope']:g} times area"
+        notes = []
+        if scene["enforcement"] == "kinematic":
+            notes.append("kinematic: the driver computes the stick force from the mass")
+        elif penalty and coefficient:
+            viscous = f", damping {scene['damping']:g}" if scene["damping"] else ""
+            notes.append(f"penalty: the driver keeps the elastic slip, {slope}{viscous}")
+        elif penalty:
+            notes.append(f"penalty: the driver computes the stick force, {slope}")
+        else:
+            notes.append("stick force: the host's")
+        if scene["shear_limit"]:
+            notes.append(f"limit on the shear stress: {scene['shear_limit']:g}")
+        return tuple(notes)
+
     def step(
         self,
         time_increment: float,

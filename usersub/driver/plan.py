@@ -30,12 +30,13 @@ class PlanRow:
 
 @dataclass(frozen=True)
 class Plan:
-    """The plan of a driver: its rows, contact points a call (`block`), threads."""
+    """The plan of a driver: its rows, contact points a call (`block`), threads, notes."""
 
     title: str
     rows: tuple[PlanRow, ...]
     block: int
     threads: int
+    notes: tuple[str, ...] = ()
 
     @property
     def bytes(self) -> int:
@@ -57,6 +58,7 @@ class Plan:
             [
                 self.title,
                 f"contact points a call: {self.block}, threads: {self.threads}",
+                *self.notes,
                 "",
                 table[0],
                 "-" * max(map(len, table)),

@@ -22,7 +22,12 @@ class State(Mapping[str, np.ndarray]):
 
     def __init__(self, driver: Driver) -> None:
         self._driver = driver
-        self._names = [n for n, p in driver.layout.ports.items() if p.role == "state"]
+        # What only some settings need is not there without them.
+        self._names = [
+            name
+            for name, port in driver.layout.ports.items()
+            if port.role == "state" and driver.keeps(name)
+        ]
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._names:

@@ -20,6 +20,7 @@ GENERATORS = (
     "fortran_lists",
     "field_files",
     "reference",
+    "law_readme",
 )
 
 

@@ -81,9 +81,10 @@ def _versions() -> str:
         + _STAMP
         + "/** Length of the blank-padded names. */\n"
         f"#define USUB_NAME_LENGTH {abi.NAME_LENGTH}\n\n"
-        "/** How an entry is called: with the published argument list and hidden lengths, or as\n"
-        " * `int f(void **argv)` with the addresses of the arguments in their order. */\n"
-        "#define USUB_STYLE_FULL 0\n#define USUB_STYLE_BLOCK 1\n"
+        "/** How an entry is called: with the published argument list and hidden lengths, as\n"
+        " * `int f(void **argv)` with the addresses of the arguments in order, or (FRIC) for\n"
+        " * several contact points at once (usub_routine_create). */\n"
+        "#define USUB_STYLE_FULL 0\n#define USUB_STYLE_BLOCK 1\n#define USUB_STYLE_POINTS 2\n"
     )
 
 

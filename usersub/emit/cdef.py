@@ -36,6 +36,6 @@ def cdef_text(header: Path = HEADER) -> str:
     return (
         f"enum {{ {statuses} }};\nenum {{ {faces} }};\n"
         "#define USUB_ABI_VERSION ...\n#define USUB_NAME_LENGTH ...\n"
-        "#define USUB_STYLE_FULL ...\n#define USUB_STYLE_BLOCK ...\n"
+        "#define USUB_STYLE_FULL ...\n#define USUB_STYLE_BLOCK ...\n#define USUB_STYLE_POINTS ...\n"
         f"{tagged_region(header)}"
     )

@@ -12,6 +12,7 @@ import re
 from collections.abc import Sequence
 
 from usersub import abi
+from usersub.routine.routine import BLOCK, FULL, POINTS
 from usersub.statuses import STATUSES
 
 #: Status of a Python routine that raised.
@@ -78,7 +79,7 @@ def _view(face: abi.Interface, position: int, pointer: str, real: str, length: s
 
 
 def adapter_source(
-    face: abi.Interface, positions: Sequence[int], precision: str, full: bool = False
+    face: abi.Interface, positions: Sequence[int], precision: str, style: int = BLOCK
 ) -> str:
     """Source of `adapter`, which calls the global function `law`.
 
@@ -86,20 +87,20 @@ def adapter_source(
         face: the interface.
         positions: for each parameter of the function the position of its argument.
         precision: "double" or "single".
-        full: the published argument list with hidden character lengths instead of one `void **`;
-            there an exception is left to numba, which reports it on the standard error stream,
-            as the published interfaces return nothing.
+        style: BLOCK: one `void **`. POINTS: the same, once for each of several contact points;
+            names and numbers that give shapes are those of all points. FULL: the published
+            argument list with hidden character lengths; there an exception is left to numba, which
+            reports it on the standard error stream, as the published interfaces return nothing.
     """
     real = {"double": "float64", "single": "float32"}[precision]
     texts = [i for i, a in enumerate(face.args) if a.kind == "char"]
-    if full:
+    pointers = [f"argv[{i}]" for i in range(len(face.args))]
+    parameters = "argv, stride, count, done" if style == POINTS else "argv"
+    lengths = {i: str(abi.NAME_LENGTH) for i in texts}
+    if style == FULL:
         pointers = [f"p{i}" for i in range(len(face.args))]
         parameters = ", ".join(pointers + [f"n{i}" for i in texts])
         lengths = {i: f"n{i}" for i in texts}
-    else:
-        pointers = [f"argv[{i}]" for i in range(len(face.args))]
-        parameters = "argv"
-        lengths = {i: str(abi.NAME_LENGTH) for i in texts}
     terms = {
         term
         for position in positions
@@ -107,35 +108,53 @@ def adapter_source(
         for term in dimension
         if not isinstance(term, int)
     }
+    same = [
+        f"size_{i}_{k} = int64(carray({pointers[i]}, ({k + 1},), int32)[{k}])"
+        for i, k in sorted(terms)
+    ]
+    own = []
+    for i in positions:
+        moves = style == POINTS and i not in texts
+        pointer = f"moved(argv[{i}], k * stride[{i}])" if moves else pointers[i]
+        view = f"a{i} = {_view(face, i, pointer, real, lengths.get(i, ''))}"
+        (own if moves else same).append(view)
     lines = [
         "# SPDX-License-Identifier: MIT",
         f"# Adapter of {face.key} in {precision} precision, made by {__name__}.",
         "from usersub.routine.numba_tools import *",
         "",
         f"def adapter({parameters}):",
+        *(f"    {line}" for line in [*same, *_guarded(style, own, _call(positions))]),
+        "    return 0",
     ]
-    lines += [
-        f"    size_{i}_{k} = int64(carray({pointers[i]}, ({k + 1},), int32)[{k}])"
-        for i, k in sorted(terms)
-    ]
-    lines += [
-        f"    a{i} = {_view(face, i, pointers[i], real, lengths.get(i, ''))}" for i in positions
-    ]
-    arguments = [f"a{i}" for i in positions]
-    if len(arguments) > _LONGEST:
-        # Python builds longer argument lists in a way that numba does not read.
-        pieces = [arguments[i : i + _LONGEST] for i in range(0, len(arguments), _LONGEST)]
-        lines.append("    parts = " + " + ".join(f"({', '.join(p)},)" for p in pieces))
-        arguments = ["*parts"]
-    call = f"nothing(law({', '.join(arguments)}))"
-    if full:
-        lines.append(f"    {call}")
-    else:
-        lines += [
-            "    try:",
-            f"        {call}",
-            "    except Exception:",
-            f"        return {RAISED}",
-        ]
-    lines.append("    return 0")
     return "\n".join(lines) + "\n"
+
+
+def _call(positions: Sequence[int]) -> list[str]:
+    """Lines that call the function."""
+    arguments = [f"a{i}" for i in positions]
+    if len(arguments) <= _LONGEST:
+        return [f"nothing(law({', '.join(arguments)}))"]
+    # Python builds longer argument lists in a way that numba does not read.
+    pieces = [arguments[i : i + _LONGEST] for i in range(0, len(arguments), _LONGEST)]
+    parts = " + ".join(f"({', '.join(p)},)" for p in pieces)
+    return [f"parts = {parts}", "nothing(law(*parts))"]
+
+
+def _guarded(style: int, own: list[str], call: list[str]) -> list[str]:
+    """Lines with the call, for each point if there are several, that end with its exceptions."""
+    if style == FULL:
+        return call
+    guarded = [
+        "try:",
+        *(f"    {line}" for line in call),
+        "except Exception:",
+        f"    return {RAISED}",
+    ]
+    if style == BLOCK:
+        return guarded
+    # Views stand before the `try`: numba takes many times as long for those inside.
+    return [
+        "for k in range(count):",
+        *(f"    {line}" for line in ["note(done, k)", *own, *guarded]),
+    ]

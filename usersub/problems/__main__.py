@@ -42,6 +42,14 @@ def write_page(path: str) -> None:
     Path(path).write_text(content, encoding="utf-8")
 
 
+def write_newton(path: str) -> None:
+    """Runs Newton's method with all tangents and writes the documentation's page."""
+    from usersub.problems import newton, newton_page
+    from usersub.problems.page import stamp
+
+    Path(path).write_text(newton_page.page(newton.runs(), stamp()), encoding="utf-8")
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Prints the table, or JSON, or writes the page; returns the exit status."""
     parser = argparse.ArgumentParser(
@@ -53,10 +61,17 @@ def main(arguments: list[str] | None = None) -> int:
         "--markdown", metavar="FILE",
         help="measure all problems by every method and write the documentation's page",
     )  # fmt: skip
+    form.add_argument(
+        "--newton", metavar="FILE",
+        help="run Newton's method with the tangents of the drivers and write the page about it",
+    )  # fmt: skip
     asked = parser.parse_args(arguments)
     try:
         if asked.markdown:
             write_page(asked.markdown)
+            return 0
+        if asked.newton:
+            write_newton(asked.newton)
             return 0
         rows = convergence.rows()
     except (Error, OSError) as error:

@@ -30,6 +30,11 @@ _ORDERS = {"rigid": 2.0, "rigid rk4": 4.0, "implicit": 2.0, "implicit Romberg": 
 #: Increments where the answer is exact for any.
 _ANY_STEPS = (1, 8, 64)
 _ANY_BLOCK_STEPS = (8, 32, 128)
+_FEW_STEPS = (1, 4, 16)
+
+#: Runs from event to event that leave no elastic slip, and their increments.
+_EVENTS = {"vfric_coef": "kinematic events", "fric_coef": "lagrange events"}
+_EVENT_STEPS = (90, 157, 333)
 
 #: Contact points: their number changes rounding alone.
 _POINTS = 16
@@ -37,6 +42,22 @@ _POINTS = 16
 #: Intervals of the table between slip rates, and contact points enough to meet its worst places.
 _INTERVALS = (80, 160, 320, 640)
 _TABLE_SAMPLES = 1024
+
+#: Refinements of P10, P11, P12, P19 by "points" or "steps", method and interface; errors by their
+#: names in the details. The counts of P10 leave the same rest divided by three.
+_REFINED = (
+    ("P10", "coulomb", "fric", "penalty", "points", (16, 31, 61), ("force", "loop")),
+    ("P11", "coulomb", "fric_coef", "lagrange", "points", (16, 32, 64),
+     ("pulled", "released", "loop")),
+    ("P12", "coulomb", "fric", "penalty", "points", (16, 32, 64), ("logarithm",)),
+    ("P19", "orthotropic", "fric", "midpoint", "steps", (16, 32, 64), ("speed", "angle")),
+    ("P19", "anisotropic", "fric_coef", "midpoint", "steps", (16, 32, 64), ("speed", "angle")),
+    ("P23", "coulomb", "vfric_coef", "central differences", "steps", (500, 1000, 2000),
+     ("rough amplitude", "rough last turn")),
+    ("P23", "coulomb", "fric_coef", "trapezoidal rule", "steps", (500, 1000, 2000),
+     ("rough last turn",)),
+)  # fmt: skip
+_REFINED_ORDER = 2.0
 
 #: The finite-element block: halvings of the time increment, and those of the run that the others
 #: are compared with.
@@ -56,7 +77,7 @@ class Row:
     Attributes:
         problem, law, interface, method: what was run.
         quantity: what the error is of.
-        steps: increments, or intervals of the table.
+        steps: increments, intervals of the table, or contact points of a refined problem.
         error: relative.
         order: observed since the coarser run; None for the first one and where the method is exact.
     """
@@ -145,16 +166,27 @@ def studies() -> Iterator[Study]:
     for interface, methods in problems.PROBLEMS["P4"].methods.items():
         for method in methods:
             yield from _table(interface, method)
+    for interface, methods in problems.PROBLEMS["P9"].methods.items():
+        for method in methods:
+            if "limit" not in method:  # which has no increments
+                yield from _study("P9", interface, method, _FEW_STEPS, _FRICTION, None)
+    for name in ("P5", "P6", "P7", "P8"):
+        for interface, method in _EVENTS.items():
+            yield from _study(name, interface, method, _EVENT_STEPS, _ALL, None)
+    for refined in _REFINED:
+        yield from _refined(*refined)
 
 
 #: How the errors of an outcome are read, by what they are of.
 _Errors = dict[str, Callable[[Outcome], float]]
 _BOTH: _Errors = {f"{_TIME}, {_DISTANCE}": lambda outcome: outcome.error}
+_ALL: _Errors = {"all numbers": lambda outcome: outcome.error}
 _EACH: _Errors = {
     _TIME: lambda outcome: outcome.details["time_error"],
     _DISTANCE: lambda outcome: outcome.details["distance_error"],
 }
 _WHOLE: _Errors = {"slip, tangent": lambda outcome: outcome.error}
+_FRICTION: _Errors = {"friction": lambda outcome: outcome.error}
 
 
 def _study(
@@ -176,6 +208,23 @@ def _study(
         found = tuple(error(outcome) for outcome in outcomes)
         law, kind = outcomes[0].law, EXACT if expected is None else SMOOTH
         yield Study(name, law, interface, method, quantity, kind, expected, steps, found)
+
+
+def _refined(
+    name: str, law: str, interface: str, method: str, option: str, counts: tuple[int, ...],
+    errors: tuple[str, ...],
+) -> Iterator[Study]:  # fmt: skip
+    """Studies of one problem by an option that refines it."""
+    outcomes = [
+        problems.run(
+            name, law=law, interface=interface, language="c", method=method, **{option: count}
+        )
+        for count in counts
+    ]
+    for key in errors:
+        found = tuple(outcome.details[key] for outcome in outcomes)
+        quantity = key.replace("_", " ")
+        yield Study(name, law, interface, method, quantity, SMOOTH, _REFINED_ORDER, counts, found)
 
 
 def _table(interface: str, method: str) -> Iterator[Study]:

@@ -37,6 +37,7 @@ class ExplicitContact:
         area: of each contact point.
         dimension: of the host's vectors, 2 or 3.
         contact: FACET or ANALYTICAL.
+        mass: of each contact point, for kinematic enforcement by the driver.
         settings: further settings of the scene.
     """
 
@@ -49,6 +50,7 @@ class ExplicitContact:
         *,
         precision: str = "double",
         contact: str = FACET,
+        mass: np.ndarray | None = None,
         **settings: object,
     ) -> None:
         from usersub import ExplicitDriver, Scene
@@ -69,18 +71,29 @@ class ExplicitContact:
             **sizes, **settings,
         )  # fmt: skip
         self.driver: ExplicitDriver = ExplicitDriver(routine, scene, reuse=True)
-        self._bind(contact, corners, coordinates, np.asarray(area))
+        self._bind(contact, corners, coordinates, np.asarray(area), mass)
         self.watch = Stopwatch()
 
-    def _bind(self, contact: str, corners: int, coordinates: np.ndarray, area: np.ndarray) -> None:
+    def _bind(
+        self,
+        contact: str,
+        corners: int,
+        coordinates: np.ndarray,
+        area: np.ndarray,
+        mass: np.ndarray | None,
+    ) -> None:
         n, d, real = self.points, self.dimension, self.real
         arrays = {
             "slip_increment": np.zeros((d, n), real, order="F"),
             "normal": np.zeros((d, n), real, order="F"),
             "normal_force": np.zeros(n, real),
-            "stick_force": np.zeros(n, real),
             "area": area.astype(real),
         }
+        if mass is not None:
+            arrays["mass"] = mass.astype(real)
+            arrays["predicted_velocity"] = np.zeros((d, n), real, order="F")
+        elif "condition" not in self.driver.state:  # else the driver enforces sticking
+            arrays["stick_force"] = np.zeros(n, real)
         arrays["normal"][1] = 1.0
         self.coord = np.zeros((d, n + corners), real, order="F")
         self.velocity = np.zeros((d, n + corners), real, order="F")
@@ -130,15 +143,24 @@ class ExplicitContact:
         self,
         slip: np.ndarray,
         normal_force: np.ndarray,
-        stick_force: np.ndarray,
+        stick_force: np.ndarray | None,
         time_increment: float,
         time: float,
+        velocity: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Friction force on each contact point, shape (dimension of the host, points)."""
+        """Friction force on each contact point, shape (dimension of the host, points).
+
+        Args:
+            stick_force: None where the driver enforces sticking.
+            velocity: predicted one, for kinematic enforcement by the driver.
+        """
         self.arrays["slip_increment"][: self.host_dimension] = slip
         self.arrays["slip_increment"][1] = 0.0
         self.arrays["normal_force"][...] = normal_force
-        self.arrays["stick_force"][...] = stick_force
+        if stick_force is not None:
+            self.arrays["stick_force"][...] = stick_force
+        if velocity is not None:
+            self.arrays["predicted_velocity"][: self.host_dimension] = velocity
         with self.watch:
             response = self.driver.step(time_increment, step_time=time, total_time=time)
         return response.force[: self.host_dimension].astype(float)

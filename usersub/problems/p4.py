@@ -58,7 +58,7 @@ def props(law: str, table_points: int = TABLE_POINTS) -> list[float]:
     rates = np.linspace(0.0, HIGHEST_RATE, table_points)
     t, p, r = np.meshgrid(TABLE_TEMPERATURES, TABLE_PRESSURES, rates, indexing="ij")
     axes = [rates, TABLE_PRESSURES, TABLE_TEMPERATURES]
-    sizes = [axis.size for axis in axes]
+    sizes = [*(axis.size for axis in axes), 0]  # no field variables
     return np.concatenate([sizes, *axes, exact(r, p, t).mu.ravel()]).tolist()
 
 

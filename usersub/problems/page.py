@@ -10,9 +10,30 @@ from pathlib import Path
 
 import numpy as np
 
-from usersub.problems import p1, p2, p4
+from usersub.problems import (
+    p1,
+    p2,
+    p4,
+    p5,
+    p6,
+    p7,
+    p8,
+    p9,
+    p10,
+    p11,
+    p12,
+    p13,
+    p15,
+    p16,
+    p17,
+    p19,
+    p23,
+)
 from usersub.problems.convergence import EXACT, IRREGULAR, SMOOTH, Study
 from usersub.problems.measured import Measured
+
+#: Problems of the block, whose table tells more.
+_BLOCKS = ("P1", "P2")
 
 _TEMPLATE = Path(__file__).with_name("page.md.in")
 
@@ -32,8 +53,10 @@ def page(measured: Iterable[Measured], studies: Iterable[Study], stamp: str) -> 
     values = {
         "STAMP": stamp,
         **_exact(),
-        **{f"{p}_MEASURED": _block_table(by_problem[p]) for p in ("P1", "P2")},
-        **{f"{p}_MEASURED": _point_table(by_problem[p]) for p in ("P3", "P4")},
+        **{
+            f"{p}_MEASURED": (_block_table if p in _BLOCKS else _point_table)(found)
+            for p, found in by_problem.items()
+        },
         "CONVERGENCE": _runs([s for s in studies if s.kind == SMOOTH]),
         "EXACT": _runs([s for s in studies if s.kind == EXACT]),
         "ELEMENTS": _runs(irregular),
@@ -66,13 +89,42 @@ def _exact() -> dict[str, str]:
     mu, by_rate, by_pressure, by_temperature = (
         float(x[0]) for x in p4.exact(*(np.array([x]) for x in _P4_POINT))
     )
+    tip, work = p13.loop(p13.STRENGTH)
+    sphere, bar = p10.exact(), p11.exact(0.0)
+    start = np.array([p19.ANGLE])
+    turned = {law: float(p19.Exact(law).angle(start)[0]) for law in p19.PROBLEM.laws}
+    speeds = {law: float(p19.Exact(law).speed(a, start[0])) for law, a in turned.items()}
     acceleration = p1.MU * p1.BLOCK.pressure / (p1.BLOCK.density * p1.BLOCK.height)
     numbers = {
         "P1_A": acceleration, "P1_TIME": first.time, "P1_DISTANCE": first.distance,
         "P2_TIME": second.time, "P2_DISTANCE": second.distance, "P4_MU": mu,
         "P4_BY_RATE": by_rate, "P4_BY_PRESSURE": by_pressure, "P4_BY_TEMPERATURE": by_temperature,
+        "P9_FORCE": p9.push(), "P9_ACCELERATION": p9.acceleration(), "P10_STUCK": sphere.stuck,
+        "P10_MOTION": sphere.motion, "P10_LOOP": sphere.loop, "P11_PULLED": bar.pulled,
+        "P11_LOOP": bar.loop, "P12_RATIO": p12.exact(), "P13_TIP": tip,
+        "P13_WORK": work, "P15_STEADY": p15.coefficient("rate_state_ageing", 1e3),
+        "P16_GROWTH": p16.growth(p16.HOLDS[0][0]),
+        "P17_PERIOD": p17.period(float(p17.excess(np.log(p17.VELOCITY), 0.0))),
+        "P17_SMALL": 2.0 * np.pi / p17.linear(1.0)[1], "P19_SPEED": speeds["orthotropic"],
+        "P19_ANGLE": turned["orthotropic"], "P19_ELLIPSE_SPEED": speeds["anisotropic"],
+        "P19_ELLIPSE_ANGLE": turned["anisotropic"],
+        **_exact_sliders(),
     }  # fmt: skip
     return {name: f"{number:.10g}" for name, number in numbers.items()}
+
+
+def _exact_sliders() -> dict[str, float]:
+    """Of the masses that rub, and of the softened block."""
+    stop, pair, shaken, pulled = p5.exact(), p6.exact(), p7.exact(), p8.exact()
+    bounded = p23.bounded()
+    return {
+        "P5_TIME": stop.time, "P5_PLACE": stop.place,
+        **{f"P6_{name.upper()}": number for name, number in pair.items()},
+        "P7_SLIP": shaken["slip1"], "P7_REST": shaken["rest1"], "P7_LAG": shaken["lag2"],
+        "P8_STICK": pulled["stick"], "P8_SLIP": pulled["slip"], "P8_JUMP": pulled["jump"],
+        "P23_FREQUENCY": p23.FREQUENCY, "P23_AMPLITUDE": p23.rough()["amplitude"],
+        "P23_STOP": bounded["stop"], "P23_PLACE": bounded["place"],
+    }  # fmt: skip
 
 
 def table(heads: str, rows: Iterable[Iterable[object]]) -> str:

@@ -77,6 +77,7 @@ class Problem:
         methods: hosts and time integrations by interface; the first is the default.
         runner: `runner(routine, law, precision, method, **options) -> Outcome`.
         options: further options of the runner and what they mean.
+        laws_by_interface: laws of interfaces that do not take all of `laws`.
     """
 
     name: str
@@ -86,6 +87,11 @@ class Problem:
     methods: Mapping[str, tuple[str, ...]]
     runner: Callable[..., Outcome] = field(repr=False)
     options: Mapping[str, str] = field(default_factory=dict)
+    laws_by_interface: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def laws_of(self, interface: str) -> tuple[str, ...]:
+        """Laws that the problem runs through an interface; the first is the default."""
+        return self.laws_by_interface.get(interface, self.laws)
 
     @property
     def interfaces(self) -> tuple[str, ...]:
@@ -110,8 +116,9 @@ class Problem:
         from usersub.problems.choose import one_of
 
         one_of("option", options, self.options, self.name)
-        law = one_of("law", [law or self.laws[0]], self.laws, self.name)
         interface = one_of("interface", [routine.interface.name], self.methods, self.name)
+        known = self.laws_of(interface)
+        law = one_of("law", [law or known[0]], known, self.name)
         methods = self.methods[interface]
         method = one_of("method", [method or methods[0]], methods, f"{self.name} by {interface}")
         precisions = routine.interface.precisions

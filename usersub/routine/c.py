@@ -8,7 +8,7 @@ from pathlib import Path
 
 from usersub import abi
 from usersub.errors import CompileError
-from usersub.routine import build, cache, compilers, debuginfo, needs, objects
+from usersub.routine import build, cache, compilers, debuginfo, dual, needs, objects
 from usersub.routine.build import Build
 from usersub.routine.support import Support, support
 from usersub.statuses import STATUSES
@@ -25,6 +25,8 @@ _OF_LANGUAGE = {
     "c++": ("-std=gnu++17",),
 }
 _WARNINGS = ("-Wunused-parameter",)
+# The headers of laws keep these warnings to themselves otherwise.
+_REPORT = "-DUSUB_REPORT_UNUSED"
 
 
 #: For calls without a declaration of these, which return nothing or an `int`, as C assumes.
@@ -62,7 +64,7 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
     base = support()
     chosen = flags(language, precision)
     folders = (*base.include_folders(precision), source.parent)
-    command = [*compiler.command, *chosen, *(f"-I{p}" for p in folders)]
+    command = [*compiler.command, *chosen, _REPORT, *(f"-I{p}" for p in folders)]
     with cache.build_folder() as folder:
         # The preprocessed text covers every include file; names in it are relative to the source.
         # It is compiled itself, because arguments that come out of one macro share a place.
@@ -72,10 +74,11 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
         outcome = compilers.run([*expand, "-E", source.name, "-o", str(plain)], source.parent)
         if outcome.code:
             raise compilers.refusal(compiler, source, outcome)
-        parts = (compiler.version, *chosen, *base.link_flags, source.name)
-        target = cache.path(
-            source.stem, cache.key(language, build.RECORD, *parts, plain.read_bytes()), ".so"
-        )
+        text = plain.read_bytes()
+        second = dual.read(source, text, _FLAGS, list(folders), folder)
+        parts = (language, build.RECORD, compiler.version, *chosen, *base.link_flags, source.name)
+        more = second.parts if second else ()
+        target = cache.path(source.stem, cache.key(*parts, text, *more), ".so")
         known = build.recall(target, source)
         if known is not None:
             return known
@@ -90,7 +93,8 @@ def compile_file(source: Path, language: str, precision: str) -> Build:
                 [*command, *_WARNINGS, "-fsyntax-only", source.name], source.parent
             )
             raise compilers.refusal(compiler, source, outcome)
-        result = _finish(compiler, source, precision, chosen, part, outcome.text, base, target)
+        made = [part, second.compile()] if second else [part]
+        result = _finish(compiler, source, precision, chosen, made, outcome.text, base, target)
         build.remember(result)
         return result
 
@@ -100,19 +104,19 @@ def _finish(
     source: Path,
     precision: str,
     chosen: tuple[str, ...],
-    part: Path,
+    parts: list[Path],
     words: str,
     base: Support,
     target: Path,
 ) -> Build:
+    part, guarded = parts[0], None
     contents = objects.read(part)
     found = debuginfo.signatures(part, build.interface_symbols())
-    parts, guarded = [part], None
     if compiler.language == "c++":
         present = [name for name in abi.NAMES if name + "_" in contents.functions]
         if present:
             guarded = {name: _guard_name(name) for name in present}
-            parts.append(_guards(compiler, present, part.parent))
+            parts = [*parts, _guards(compiler, present, part.parent)]
     return Build(
         library=target,
         source=source,

@@ -21,12 +21,12 @@ from usersub.errors import CompileError, LoadError
 from usersub.routine import cache as code_cache
 from usersub.routine.declaration import Declaration
 from usersub.routine.fingerprint import fingerprint
-from usersub.routine.routine import BLOCK, FULL, Entry
+from usersub.routine.routine import BLOCK, FULL, POINTS, Entry
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _PLACE = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _NOISE = ("Failed in ", "During:", "<source ", "Enable ", "For more ")
-_OPTIONS: dict[str, Any] = {
+OPTIONS: dict[str, Any] = {
     "boundscheck": True,  # an index beyond its array raises, and never meets foreign memory
     "no_cpython_wrapper": True,
     "no_cfunc_wrapper": True,
@@ -47,12 +47,10 @@ def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK)
     """
     import numba
 
-    source = adapter_source(
-        declaration.interface, declaration.positions, precision, full=style == FULL
-    )
+    source = adapter_source(declaration.interface, declaration.positions, precision, style)
     law = declaration.law
     if law is declaration.function:
-        law = numba.njit(**{**_OPTIONS, "error_model": _error_model(law)})(law)
+        law = numba.njit(**{**OPTIONS, "error_model": error_model(law)})(law)
     file = _cached_source(declaration, source)
     signature = _signature(declaration.interface, style)
     if file is not None:
@@ -69,7 +67,7 @@ def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK)
         raise _compile_error(declaration, precision, law, error) from error
 
 
-def _error_model(function: FunctionType) -> str:
+def error_model(function: FunctionType) -> str:
     """ "python" where integers may be divided: `//` and `%` by zero raise then, as uncompiled.
 
     Elsewhere "numpy": a real division by zero gives infinity, which the driver refuses as a result.
@@ -123,9 +121,10 @@ def _code_class() -> type:
 def _signature(face: abi.Interface, style: int) -> Any:
     from numba import types
 
-    if style == BLOCK:
-        arguments: tuple = (types.CPointer(types.voidptr),)
-    else:
+    arguments: tuple = (types.CPointer(types.voidptr),)
+    if style == POINTS:
+        arguments += types.CPointer(types.int64), types.int32, types.CPointer(types.int32)
+    if style == FULL:
         texts = sum(a.kind == "char" for a in face.args)
         arguments = (types.voidptr,) * len(face.args) + (types.intp,) * texts
     return arguments, types.int32
@@ -182,7 +181,8 @@ def _cached_source(declaration: Declaration, source: str) -> Path | None:
 def _tools_hash() -> str:
     """Hash of our own code that ends up in the machine code."""
     folder = Path(__file__).parent
-    texts = [(folder / name).read_bytes() for name in ("numba_tools.py", "compiled.py")]
+    files = [folder / "numba_tools.py", Path(__file__), *sorted(folder.parent.glob("lift/*.py"))]
+    texts = [file.read_bytes() for file in files]
     return hashlib.sha256(b"".join(texts)).hexdigest()
 
 
@@ -202,7 +202,7 @@ def _compile_error(
     except Exception as own:
         error = own
     if not words:
-        where, words = _shortened(str(error), declaration)
+        where, words = shortened(str(error), declaration.function)
     return CompileError(
         f"{where}: numba cannot compile the {declaration.interface.name.upper()} routine "
         f"'{declaration.name}': {words} (with compiled=False it runs uncompiled)"
@@ -228,10 +228,9 @@ def _law_types(declaration: Declaration, precision: str) -> tuple:
     return tuple(type_of(declaration.interface.args[i]) for i in declaration.positions)
 
 
-def _shortened(text: str, declaration: Declaration) -> tuple[str, str]:
-    """Place ("file:line") and reason out of numba's long message."""
-    file = declaration.function.__code__.co_filename
-    line = declaration.function.__code__.co_firstlineno
+def shortened(text: str, function: FunctionType) -> tuple[str, str]:
+    """Place ("file:line") and reason out of numba's long message about the user's function."""
+    file, line = function.__code__.co_filename, function.__code__.co_firstlineno
     reason: list[str] = []
     in_source = False
     for row in _COLOUR.sub("", text).splitlines():

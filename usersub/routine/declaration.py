@@ -32,7 +32,7 @@ class Declaration:
         function: the function itself, uncompiled.
         law: what numba is to compile: `function`, or the numba dispatcher the user made of it.
         positions: for each parameter the position of its argument in the interface.
-        origin: "file:line" of the function.
+        origin: "file:line" of the function, or of the law that it calls.
     """
 
     interface: abi.Interface
@@ -45,6 +45,11 @@ class Declaration:
     def name(self) -> str:
         """Name of the function."""
         return self.function.__name__
+
+    @property
+    def file(self) -> str:
+        """The user's file: that of the function, or of the law which the function calls."""
+        return self.origin.rpartition(":")[0]
 
     @property
     def uses(self) -> tuple[int, ...]:

@@ -4,7 +4,8 @@
 numba's own cache looks at the source file of a function, but not at the functions and constants
 of other files that it uses. Here the function's code is followed into every global and closure
 value; where one of them cannot be told by value, the function is not cached. Of a function that
-numba knows by `overload` the Python function is followed, as `register_jitable` compiles it.
+numba knows by `overload` the Python function is followed, as `register_jitable` compiles it, or
+the function that it `stands_for`.
 """
 
 from __future__ import annotations
@@ -16,6 +17,10 @@ from typing import Any
 
 #: Modules whose contents are fixed by their version.
 _FIXED_MODULES = ("math", "cmath", "numpy", "numba", "operator")
+
+#: Functions that numba does not compile from their Python code, see `usersub.lift.machine`. Their
+#: machine code is that of this version of the package.
+_PRIMITIVES = "usersub.lift.primitives"
 
 _PLAIN = (type(None), bool, int, float, complex, str, bytes, type(Ellipsis))
 
@@ -80,14 +85,19 @@ def _library_value(value: Any, add: Callable) -> None:
         raise _Unknown
 
 
+def _is_fixed(module: str) -> bool:
+    return module.split(".")[0].lstrip("_") in _FIXED_MODULES
+
+
 def _fixed(module: str) -> None:
-    if module.split(".")[0].lstrip("_") not in _FIXED_MODULES:
+    if not _is_fixed(module):
         raise _Unknown
 
 
 def _function(function: FunctionType, add: Callable, seen: set[int]) -> None:
+    function = getattr(function, "stands_for", function)
     home = function.__module__ or ""
-    if home.split(".")[0] in _FIXED_MODULES:
+    if home.split(".")[0] in _FIXED_MODULES or home == _PRIMITIVES:
         add(f"library {home}.{function.__qualname__};".encode())
         return
     if id(function) in seen:
@@ -99,10 +109,26 @@ def _function(function: FunctionType, add: Callable, seen: set[int]) -> None:
     _value(tuple(sorted((function.__kwdefaults__ or {}).items())), add, seen)
     for cell in function.__closure__ or ():
         _value(cell.cell_contents, add, seen)
-    for name in sorted(_names(function.__code__)):
+    names = sorted(_names(function.__code__))
+    for name in names:
         if name in function.__globals__:
             add(f"global {name};".encode())
-            _value(function.__globals__[name], add, seen)
+            _global(function.__globals__[name], names, add, seen)
+
+
+def _global(value: Any, names: list[str], add: Callable, seen: set[int]) -> None:
+    """Adds a global value; of a module whose version tells nothing, what the code may name."""
+    if not isinstance(value, ModuleType) or _is_fixed(value.__name__):
+        _value(value, add, seen)
+        return
+    add(f"module {value.__name__};".encode())
+    if id(value) in seen:
+        return
+    seen.add(id(value))
+    for name in names:
+        if hasattr(value, name):
+            add(f"attribute {name};".encode())
+            _global(getattr(value, name), names, add, seen)
 
 
 def _names(code: CodeType) -> set[str]:

@@ -47,7 +47,7 @@ def interpreted_entry(declaration: Declaration, precision: str, style: int = BLO
     import cffi
 
     ffi = cffi.FFI()
-    record = Record(declaration.function.__code__.co_filename)
+    record = Record(declaration.file)
     views = [_view(ffi, declaration.interface, i, precision) for i in declaration.positions]
     function = declaration.function
 

@@ -135,7 +135,7 @@ def load(
     if language == "python":
         from usersub.routine.pyfile import load_python
 
-        found = load_python(file)
+        found = load_python(file, generation)
         return RoutineFile(file, language, precision, _chosen(file, found, interface))
     if language != "library":
         _check_text(file)

@@ -11,7 +11,8 @@ from numba.extending import intrinsic, overload
 from usersub.abi import NAME_LENGTH
 
 __all__ = [
-    "carray", "farray", "float32", "float64", "int32", "int64", "nothing", "readonly", "text_at",
+    "carray", "farray", "float32", "float64", "int32", "int64", "moved", "note", "nothing",
+    "readonly", "text_at",
 ]  # fmt: skip
 
 _ONE_BYTE = 1  # kind of numba's texts with one byte a character
@@ -28,6 +29,27 @@ def readonly(typing_context, array):
         return arguments[0]
 
     return array.copy(readonly=True)(array), code
+
+
+@intrinsic
+def moved(typing_context, pointer, count):
+    """The pointer `count` bytes further on."""
+
+    def code(context, builder, signature, arguments):
+        return builder.gep(arguments[0], [arguments[1]])
+
+    return types.voidptr(types.voidptr, types.int64), code
+
+
+@intrinsic
+def note(typing_context, place, value):
+    """Writes an integer where others look for it after a fault: the compiler must not defer it."""
+
+    def code(context, builder, signature, arguments):
+        builder.store_atomic(arguments[1], arguments[0], "monotonic", 4)
+        return context.get_dummy_value()
+
+    return types.void(types.CPointer(types.int32), types.int32), code
 
 
 @njit

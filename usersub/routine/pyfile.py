@@ -12,13 +12,14 @@ from pathlib import Path
 from types import ModuleType
 
 from usersub.errors import CompileError, Error, LoadError
-from usersub.routine.routine import Routine
+from usersub.routine.routine import Routine, RoutineMaker
 
 
-def load_python(path: str | Path) -> dict[str, Routine]:
+def load_python(path: str | Path, generation: str | None = None) -> dict[str, Routine]:
     """Runs the file and returns its routines by interface name.
 
-    Routines that the file defines count; if it defines none, those that it imports. The file may
+    Routines that the file defines count, those of its law functions included; if it defines none,
+    those that it imports. A law function's FRIC_COEF is made for `generation`. The file may
     import modules of its own folder; these are private to it, as in a program of its own.
 
     Raises:
@@ -28,12 +29,14 @@ def load_python(path: str | Path) -> dict[str, Routine]:
     """
     file = Path(path).expanduser().resolve()
     module = _run(file)
-    found: dict[int, Routine] = {
-        id(value): value for value in vars(module).values() if isinstance(value, Routine)
+    found: dict[int, Routine | RoutineMaker] = {
+        id(value): value
+        for value in vars(module).values()
+        if isinstance(value, Routine | RoutineMaker)
     }
     own = [r for r in found.values() if r.origin.rpartition(":")[0] == str(file)]
     routines: dict[str, Routine] = {}
-    for routine in own or found.values():
+    for routine in _routines(own or list(found.values()), generation):
         name = routine.interface.name
         if name in routines:
             raise LoadError(
@@ -44,9 +47,20 @@ def load_python(path: str | Path) -> dict[str, Routine]:
     if not routines:
         raise LoadError(
             f"{path} has no routine; decorate a function with @usersub.fric, @usersub.fric_coef, "
-            "@usersub.vfric, @usersub.vfriction or @usersub.vfric_coef"
+            "@usersub.vfric, @usersub.vfriction, @usersub.vfric_coef, or a law function with "
+            "@usersub.coefficient, @usersub.strength, @usersub.traction"
         )
     return routines
+
+
+def _routines(found: list[Routine | RoutineMaker], generation: str | None) -> Iterator[Routine]:
+    """The routines, and those behind every interface of a law function."""
+    for each in found:
+        if isinstance(each, Routine):
+            yield each
+            continue
+        for name in each.interfaces:
+            yield each.behind(name, generation=generation if name == "fric_coef" else None)
 
 
 def _run(file: Path) -> ModuleType:

@@ -28,7 +28,7 @@ from typing import Any
 
 from usersub.errors import AbiError
 from usersub.routine.declaration import Declaration, declare
-from usersub.routine.routine import BLOCK, FULL, Entry, Routine
+from usersub.routine.routine import BLOCK, FULL, POINTS, Entry, Routine
 
 __all__ = ["PythonRoutine", "fric", "fric_coef", "vfric", "vfric_coef", "vfriction"]
 
@@ -115,13 +115,26 @@ def _routine(
             f"{declaration.origin}: {name.upper()} exists in {' and '.join(precisions)} "
             f"precision, not in {precision!r}"
         )
+    return routine_of(declaration, precision, compiled, block_safe, thread_safe)
+
+
+def routine_of(
+    declaration: Declaration,
+    precision: str | None = None,
+    compiled: bool = True,
+    block_safe: bool = False,
+    thread_safe: bool = True,
+) -> PythonRoutine:
+    """The routine of a function whose arguments are declared."""
     compiled = compiled and os.environ.get("USERSUB_DEBUG", "0") in ("", "0")
+    # FRIC is called point by point: the loop over the points is compiled with the function.
+    style = POINTS if compiled and declaration.interface.name == "fric" else BLOCK
     return PythonRoutine(
         interface=declaration.interface,
         language="python",
         name=declaration.name,
         origin=declaration.origin,
-        make_entry=_Maker(declaration, precision, BLOCK, compiled),
+        make_entry=_Maker(declaration, precision, style, compiled),
         uses=declaration.uses,
         block_safe=block_safe,
         # The interpreter runs one thread at a time, and a debugger wants the one it was started in.

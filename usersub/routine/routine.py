@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from usersub import abi
 
 #: How an entry is called; the numbers are those of the C core (USUB_STYLE_...).
-FULL, BLOCK = 0, 1
+FULL, BLOCK, POINTS = 0, 1, 2
 
 #: What a routine does with an argument; the numbers are those of `usub_routine_set_uses`.
 UNUSED, READS, WRITES, READS_AND_WRITES = 0, 1, 2, 3
@@ -18,11 +19,29 @@ UNUSED, READS, WRITES, READS_AND_WRITES = 0, 1, 2, 3
 @dataclass(frozen=True)
 class Entry:
     """An address that can be called: `style` FULL (published argument list with hidden character
-    lengths) or BLOCK (`int f(void **argv)`); `keep` keeps the code alive."""
+    lengths), BLOCK (`int f(void **argv)`) or, for FRIC, POINTS (`int f(void **argv, const int64_t
+    *stride, int count, int *done)`, which is BLOCK for one contact point after the other); `keep`
+    keeps the code alive."""
 
     address: int
     style: int
     keep: object = field(default=None, compare=False, repr=False)
+
+
+class RoutineMaker(ABC):
+    """User code that stands behind several interfaces.
+
+    Attributes:
+        interfaces: their names.
+        origin: where it comes from, "file:line".
+    """
+
+    interfaces: tuple[str, ...]
+    origin: str
+
+    @abstractmethod
+    def behind(self, interface: str, *, generation: str | None = None) -> Routine:
+        """The routine behind one of the interfaces."""
 
 
 @dataclass(frozen=True)

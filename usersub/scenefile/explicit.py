@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Runs a history through VFRIC, VFRICTION or VFRIC_COEF: one step for each increment.
 
-The stick force, which a host gets from its own contact algorithm, follows one of four rules:
+If the scene's `enforcement` is kinematic or penalty, the driver enforces sticking; kinematic takes
+the history's `mass`. Otherwise the stick force, which a host gets from its own contact algorithm,
+follows one of four rules:
 
 * the column `stick_force`;
 * `stick_stiffness` k: the elastic trial force |F_previous - k ds| of penalty contact;
@@ -17,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from usersub.errors import SceneError
 from usersub.scenefile.geometry import Bound, FlatModel, Progress
 from usersub.scenefile.history import History
 from usersub.scenefile.interpolate import Row, at
@@ -32,8 +35,14 @@ def run(
     """Takes every increment of `history` with `driver` and fills `result`.
 
     Raises:
+        SceneError: the scene gives VFRIC_COEF state variables.
         RoutineError: the routine fails.
     """
+    if result.interface == "vfric_coef" and settings.get("states", 0):
+        raise SceneError(
+            f"scene setting 'states' = {settings['states']}; expected 0, as VFRIC_COEF has no "
+            "state variables"
+        )
     _Run(driver, settings, history, result, progress).all()
 
 
@@ -68,9 +77,13 @@ class _Run:
         step = now.time - last.time
         slip = np.zeros((self.dimension, self.history.points))
         slip[: self.history.directions] = (now.slip - last.slip).T
-        stick = self._stick_force(now, slip, step)
         velocity = slip[: self.history.directions].T / step
-        values = {"slip_increment": slip, "normal_force": now.normal_force, "stick_force": stick}
+        values = {"slip_increment": slip, "normal_force": now.normal_force}
+        enforced = "condition" in self.driver.state
+        if not enforced:
+            values["stick_force"] = self._stick_force(now, slip, step)
+        elif self.history.mass is not None:
+            values["mass"] = np.full(self.history.points, self.history.mass)
         values |= self.model.moving(now.slip, velocity)
         values["area"] = self.model.fixed(now.area)["area"]
         if now.temperature is not None:
@@ -89,7 +102,7 @@ class _Run:
         )
         self.force = np.array(answer.force, dtype=float)
         self.dissipation = self.dissipation - np.sum(self.force * slip, axis=0)
-        self._keep(now, stick, answer)
+        self._keep(now, answer)
 
     def _stick_force(self, now: Row, slip: np.ndarray, step: float) -> np.ndarray:
         history = self.history
@@ -102,7 +115,7 @@ class _Run:
             return history.mass * length / step**2
         return np.where(length > 0.0, UNLIMITED, 0.0)
 
-    def _keep(self, now: Row, stick: np.ndarray, answer) -> None:
+    def _keep(self, now: Row, answer) -> None:
         kept = self.kept
         force = self.force[: self.history.directions].T
         kept["time"].append(now.time)
@@ -112,7 +125,8 @@ class _Run:
         kept["tau"].append(-force / now.area[:, None])
         kept["force"].append(force)
         kept["normal_force"].append(now.normal_force)
-        kept["stick_force"].append(stick)
+        if self.driver.keeps("stick_force"):
+            kept["stick_force"].append(np.array(self.driver.array("stick_force"), dtype=float))
         size = np.linalg.norm(force, axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
             kept["mobilised"].append(np.where(now.normal_force > 0.0, size / now.normal_force, 0.0))

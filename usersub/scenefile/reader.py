@@ -57,7 +57,8 @@ class SceneFile:
         routine: path of a routine file, or None.
         law: name of a built-in law, or None.
         interface, generation, language: as given, or None.
-        props: properties of the routine; None if the file gives none (a built-in law has its own).
+        props: properties of the routine; None if the file gives none.
+        named: properties of a built-in law by name, or None.
         settings: keys of [scene] that are given.
         history: the table [history] as read, or None.
         problem: name and options of [problem], or None.
@@ -71,6 +72,7 @@ class SceneFile:
     generation: str | None
     language: str | None
     props: tuple[float, ...] | None
+    named: dict[str, Any] | None = None
     settings: dict[str, Any] = field(default_factory=dict)
     history: Given | None = None
     problem: tuple[str, dict[str, Any]] | None = None
@@ -95,7 +97,10 @@ def read(path: str | Path) -> SceneFile:
         )
     generation = top.take("generation", "text", None, (abi.LEGACY, abi.RELEASE_2022))
     language = top.take("language", "text", None, LANGUAGES)
-    props = top.take("props", "numbers", None)
+    by_name = isinstance(top.data.get("props"), dict)
+    props = top.take("props", "table" if by_name else "numbers", None)
+    if by_name and law is None:
+        raise top.error("props by name are for built-in laws; a routine file takes an array")
     scene, history, problem, output = (top.table(name) for name in _TABLES)
     top.finish()
     if (history is None) == (problem is None):
@@ -113,7 +118,8 @@ def read(path: str | Path) -> SceneFile:
         interface=None if interface is None else interface.lower(),
         generation=generation,
         language=language,
-        props=None if props is None else tuple(map(float, props)),
+        props=None if props is None or by_name else tuple(map(float, props)),
+        named=props if by_name else None,
         settings=settings,
         history=None if history is None else take_history(history, path.parent),
         problem=None if problem is None else _problem(problem),
@@ -192,7 +198,7 @@ _OPTIONS = {
 }
 
 
-def _only_problem(top: Table, props: list | None, settings: dict[str, Any]) -> None:
+def _only_problem(top: Table, props: list | dict | None, settings: dict[str, Any]) -> None:
     """Refuses what a problem itself decides."""
     if props is not None:
         raise top.error(f"props = {show(props)} has no place beside [problem], which sets its own")

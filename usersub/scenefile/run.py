@@ -13,7 +13,7 @@ from usersub import errors
 from usersub.scenefile import explicit, results, standard
 from usersub.scenefile.geometry import Progress
 from usersub.scenefile.reader import SceneFile, read
-from usersub.scenefile.setup import history_of, routine_of
+from usersub.scenefile.setup import history_of, routine_of, scene_of
 
 
 @dataclass
@@ -69,7 +69,7 @@ def _run_history(scene_file: SceneFile, progress: Progress) -> Run:
     routine = routine_of(scene_file)
     settings, history = history_of(scene_file, routine.interface)
     try:
-        scene = usersub.Scene(props=scene_file.props or (), **settings)
+        scene = scene_of(scene_file, routine.interface.name, settings)
         driver = usersub.driver(routine, scene)
     except errors.SceneError as error:
         raise errors.SceneError(f"{scene_file.path}: {error}") from error

@@ -22,5 +22,7 @@ def bind_sample(driver: Any, interface: str, settings: dict[str, Any]) -> None:
         return
     model, rest = FlatModel(interface, settings, reach=1.0), np.zeros((points, dimension - 1))
     values = model.fixed(np.ones(points)) | model.moving(rest, rest)
-    values |= {name: np.ones(points) for name in ("normal_force", "stick_force")}
+    enforced = "condition" in driver.state  # then the driver makes the stick force itself
+    names = ("normal_force", "mass" if enforced else "stick_force")
+    values |= {name: np.ones(points) for name in names}
     bound.put(values | {"slip_increment": np.zeros((dimension, points))})

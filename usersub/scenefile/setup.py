@@ -65,6 +65,27 @@ def _built_in(scene_file: SceneFile, precision: str) -> Routine:
     return laws.routine(scene_file.law, scene_file.interface, language, precision=precision)
 
 
+def scene_of(scene_file: SceneFile, interface: str, settings: dict[str, Any]) -> Any:
+    """The scene, with the properties and the state variables of a built-in law.
+
+    Raises:
+        SceneError: a setting or a property is wrong.
+    """
+    import usersub
+    from usersub import laws
+    from usersub.driver.law import completed
+
+    if scene_file.named is None:
+        scene = usersub.Scene(props=scene_file.props or (), **settings)
+    else:
+        scene = usersub.Scene(**settings)
+    if scene_file.law is None:
+        return scene
+    described = laws.law(scene_file.law)
+    law = described.of(scene.props) if scene_file.named is None else described(**scene_file.named)
+    return completed(law, interface, scene)
+
+
 def history_of(scene_file: SceneFile, interface: abi.Interface) -> tuple[dict[str, Any], History]:
     """Settings for `usersub.Scene` and the history, made to fit each other.
 

@@ -35,10 +35,12 @@ const char usub_routine_abi_hash[17] = USUB_ABI_HASH;
 /** Length of the blank-padded names. */
 #define USUB_NAME_LENGTH 80
 
-/** How an entry is called: with the published argument list and hidden lengths, or as
- * `int f(void **argv)` with the addresses of the arguments in their order. */
+/** How an entry is called: with the published argument list and hidden lengths, as
+ * `int f(void **argv)` with the addresses of the arguments in order, or (FRIC) for
+ * several contact points at once (usub_routine_create). */
 #define USUB_STYLE_FULL 0
 #define USUB_STYLE_BLOCK 1
+#define USUB_STYLE_POINTS 2
 
 /** Precision of the explicit routines of a source file; FRIC and FRIC_COEF are always double. */
 #ifdef USUB_SINGLE

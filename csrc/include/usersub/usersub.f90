@@ -62,6 +62,17 @@ module usersub
     integer(c_int32_t) :: bytes_full
   end type usub_plan_row
 
+  type, bind(C) :: usub_symmetry
+    integer(c_int32_t) :: closed_points
+    integer(c_int32_t) :: unsymmetric_points
+    real(c_double) :: skew
+    integer(c_int32_t) :: skew_point
+    real(c_double) :: pressure
+    integer(c_int32_t) :: pressure_point
+    integer(c_int32_t) :: solver_switches
+    character(kind=c_char) :: sentence(512)
+  end type usub_symmetry
+
   interface
 
     function usub_abi_version() bind(C, name='usub_abi_version') result(answer)
@@ -298,6 +309,24 @@ module usersub
       real(c_double) :: answer
     end function usub_pnewdt
 
+    function usub_set_amplitude(driver, amplitude) bind(C, name='usub_set_amplitude') &
+        result(answer)
+      import
+      type(usub_driver), value :: driver
+      real(c_double), value :: amplitude
+      integer(c_int32_t) :: answer
+    end function usub_set_amplitude
+
+    function usub_find_symmetry(driver, skew, pressure, found) bind(C, &
+        name='usub_find_symmetry') result(answer)
+      import
+      type(usub_driver), value :: driver
+      real(c_double), intent(inout) :: skew(*)
+      real(c_double), intent(inout) :: pressure(*)
+      type(usub_symmetry), intent(out) :: found
+      integer(c_int32_t) :: answer
+    end function usub_find_symmetry
+
     function usub_step(driver) bind(C, name='usub_step') result(answer)
       import
       type(usub_driver), value :: driver
@@ -309,6 +338,12 @@ module usersub
       type(usub_driver), value :: driver
       real(c_double) :: answer
     end function usub_dissipation
+
+    function usub_elastic_energy(driver) bind(C, name='usub_elastic_energy') result(answer)
+      import
+      type(usub_driver), value :: driver
+      real(c_double) :: answer
+    end function usub_elastic_energy
 
     function usub_evaluate(driver) bind(C, name='usub_evaluate') result(answer)
       import

@@ -101,7 +101,12 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
 /** Makes a routine of a function of this process.
  * @param style  USUB_STYLE_FULL: the published argument list with hidden character lengths;
  *               USUB_STYLE_BLOCK: `int f(void **argv)`, the arguments in their order, returns 0 or
- *               a negative status.
+ *               a negative status;
+ *               USUB_STYLE_POINTS (FRIC): `int32_t f(void **argv, const int64_t *stride,
+ *               int32_t count, int32_t *done)`, the same for `count` contact points one after the
+ *               other; argument i of point k is at argv[i] plus k * stride[i] bytes, where numbers
+ *               that give sizes and names have stride 0. It sets *done to k before it begins with
+ *               point k, and returns at the first point that fails.
  */
 int32_t usub_routine_create(const char *interface, const char *generation, const char *precision,
                             int32_t style, usub_entry entry, usub_routine **routine,
@@ -166,11 +171,35 @@ int32_t usub_commit(usub_driver *driver);
 int32_t usub_cut_back(usub_driver *driver);
 /** Standard: smallest PNEWDT of the last iteration. */
 double usub_pnewdt(const usub_driver *driver);
+/** Standard: how far friction has changed since the start of the step, 0 to 1, in the increments to
+ * come (FRIC_COEF with the scene setting `changing`). Comes before usub_begin_increment; 1 until
+ * it is set. */
+int32_t usub_set_amplitude(usub_driver *driver, double amplitude);
+
+/** What a symmetric solver would lose of the tangents of an iteration. */
+typedef struct usub_symmetry {
+  int32_t closed_points, unsymmetric_points;
+  double skew;        /* largest skew part of d tau/d gamma, as a fraction of it */
+  int32_t skew_point; /* where, from 0; -1 if there is none */
+  double pressure;    /* largest d tau/d p, to which nothing is symmetric */
+  int32_t pressure_point;
+  int32_t solver_switches; /* the commercial solver is assumed to use its unsymmetric solver */
+  char sentence[512];
+} usub_symmetry;
+
+/** Standard: looks at the tangents of the last iteration.
+ * @param skew, pressure  receive the parts of every point, or NULL
+ * @param found           receives the summary, or NULL */
+int32_t usub_find_symmetry(usub_driver *driver, double *skew, double *pressure,
+                           usub_symmetry *found);
 
 /** Explicit: one increment: axes, rotation, routine, forces, scatter. */
 int32_t usub_step(usub_driver *driver);
 /** Explicit: frictional dissipation summed so far (scene setting `dissipation`). */
 double usub_dissipation(const usub_driver *driver);
+/** Explicit: elastic energy of all points at the last increment, with the areas bound now; 0 unless
+ * the driver keeps elastic slips (VFRIC_COEF by penalty enforcement). */
+double usub_elastic_energy(const usub_driver *driver);
 /** Coefficient: friction coefficients of all points. */
 int32_t usub_evaluate(usub_driver *driver);
 

@@ -112,7 +112,8 @@ class Host:
             name: np.asfortranarray(a.astype(self.real)) if a.dtype.kind == "f" else a
             for name, a in arrays.items()
         }
-        return {name: a for name, a in made.items() if a.size}
+        cold = () if self.temperatures else ("temperature_secondary", "temperature_main")
+        return {name: a for name, a in made.items() if a.size and name not in cold}
 
     def axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Length of the slip, t1, t2, n: projection in double precision."""

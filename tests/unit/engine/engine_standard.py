@@ -83,7 +83,9 @@ class Host:
         driver = usersub.StandardDriver(routine, self.scene())
         for name, values in self.committed.items():
             driver.state[name][...] = values
-        bound = {n: a for n, a in self.arrays.items() if n in driver.layout.ports}
+        cold = () if self.temperatures else ("temperature_secondary", "temperature_main")
+        ports = driver.layout.ports
+        bound = {n: a for n, a in self.arrays.items() if n in ports and n not in cold}
         driver.bind(**{**bound, **arrays})
         self.begin(driver)
         return driver

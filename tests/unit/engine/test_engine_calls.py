@@ -83,7 +83,8 @@ def create_routine(interface, generation, precision, style=1, entry=ENTRY):
         ((b"vfric", ffi.NULL, b"half"), "BAD_ARGUMENT", "precision 'half'"),
         ((b"vfric", ffi.NULL, ffi.NULL), "BAD_ARGUMENT", "precision '(null)'"),
         ((b"FRIC", ffi.NULL, b"single"), "NOT_SUPPORTED", "double precision only"),
-        ((b"vfric", ffi.NULL, b"double", 2), "BAD_ARGUMENT", "style 2"),
+        ((b"fric", ffi.NULL, b"double", 3), "BAD_ARGUMENT", "style 3"),
+        ((b"vfric", ffi.NULL, b"double", 2), "BAD_ARGUMENT", "style 2 of vfric"),
         ((b"vfric", ffi.NULL, b"double", 1, ffi.NULL), "BAD_ARGUMENT", "entry"),
     ],
 )

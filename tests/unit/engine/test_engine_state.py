@@ -17,12 +17,13 @@ import usersub
 from usersub.errors import SceneError, StateError
 
 #: Offsets of the header: magic, byte order, format, ABI version, kind, interface, precision, sizes,
-#: force kept, step, increment, timed, times, work, dissipation, bytes, check sum.
-HEADER = struct.Struct("=8s2I4i12i4i5d2Q")
+#: force kept, step, increment, timed, enforcement, changing, times, work, dissipation, bytes, check
+#: sum.
+HEADER = struct.Struct("=8s2I4i12i6i5d2Q")
 FIELDS = ["magic", "order", "format", "abi", "kind", "interface", "single"]
 FIELDS += ["N", "D", "F", "S", "P", "A", "B", "M", "X", "Y", "Z", "T"]
-FIELDS += ["force", "step", "increment", "timed", "time0", "time1", "time2", "work", "dissipation"]
-FIELDS += ["payload", "check"]
+FIELDS += ["force", "step", "increment", "timed", "enforcement", "changing"]
+FIELDS += ["time0", "time1", "time2", "work", "dissipation", "payload", "check"]
 
 
 def forged(data: bytes, body: bytes | None = None, **changes) -> bytes:
@@ -94,9 +95,11 @@ def test_what_is_saved(probe):
     [
         ({"magic": b"NUMPYARR"}, "not a state saved by usersub"),
         ({"order": 0x04030201}, "byte order"),
-        ({"format": 2}, "format version"),
+        ({"format": 99}, "format version"),
         ({"abi": 99}, "ABI version"),
         ({"kind": 0}, "another interface or kind"),
+        ({"enforcement": 1}, "enforces sticking"),
+        ({"changing": 1}, "changes friction"),
         ({"interface": 0}, "another interface or kind"),
         ({"single": 1}, "another precision"),
         ({"N": 6}, "other sizes"),

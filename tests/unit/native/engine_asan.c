@@ -203,6 +203,21 @@ static usub_routine *routine_of(const char *interface, const char *generation) {
   return routine;
 }
 
+/* How FRIC_COEF is enforced. */
+static const struct method {
+  const char *enforcement;
+  double stick_slope, damping;
+  int32_t changing;
+} methods[] = {{"default", 0, 0, 0}, {"penalty", 8, 0.5, 0}, {"lagrange", 0, 0.5, 1}};
+static const struct method *method = methods;
+
+static void set_method(usub_scene *scene) {
+  CHECK(usub_scene_set_text(scene, "enforcement", method->enforcement) == USUB_OK);
+  CHECK(usub_scene_set_real(scene, "stick_slope", method->stick_slope) == USUB_OK);
+  CHECK(usub_scene_set_real(scene, "damping", method->damping) == USUB_OK);
+  CHECK(usub_scene_set_int(scene, "changing", method->changing) == USUB_OK);
+}
+
 static usub_scene *scene_of(int32_t d, const char *contact, int32_t block, int32_t threads) {
   static const struct {
     const char *key;
@@ -224,6 +239,7 @@ static usub_scene *scene_of(int32_t d, const char *contact, int32_t block, int32
   CHECK(usub_scene_set_text(scene, "precision", single ? "single" : "double") == USUB_OK);
   CHECK(usub_scene_set_real(scene, "elastic_slip", 0.125) == USUB_OK);
   CHECK(usub_scene_set_props(scene, props, 3) == USUB_OK);
+  set_method(scene);
   return scene;
 }
 
@@ -272,9 +288,9 @@ static void bind_standard(host *h, const char *interface, int32_t d) {
   bind(h, "field_secondary", FIELDS * n, 1, 1);
   bind(h, "field_main", FIELDS * n, 2, 1);
   bind_ints(h, "node", n, 3);
+  bind(h, "multiplier", f * n, 1, 1);
   if (strcmp(interface, "fric") != 0)
     return;
-  bind(h, "multiplier", f * n, 1, 1);
   bind(h, "coord", (size_t)d * n, 1, 1);
   bind(h, "coord_main", (size_t)d * n, 1, 1);
 }
@@ -319,17 +335,29 @@ static void check_state(usub_driver *driver) {
   free(changed);
 }
 
+static void look_at_symmetry(usub_driver *driver) {
+  double *parts = malloc(2 * POINTS * sizeof *parts);
+  usub_symmetry found;
+  CHECK(usub_find_symmetry(driver, parts, parts + POINTS, &found) == USUB_OK);
+  CHECK(usub_find_symmetry(driver, NULL, NULL, NULL) == USUB_OK);
+  CHECK(found.sentence[0]);
+  free(parts);
+}
+
 static int32_t one_call(usub_driver *driver, const char *kind, int32_t increment) {
   CHECK(usub_set_time(driver, 1, increment, increment, increment, 0.5) == USUB_OK);
   if (kind[0] == 'c')
     return usub_evaluate(driver);
   if (kind[0] == 'e')
     return usub_step(driver);
+  CHECK(usub_set_amplitude(driver, 0.25) == (method->changing ? USUB_OK : USUB_WRONG_ORDER));
   CHECK(usub_begin_increment(driver) == USUB_OK);
   int32_t status = usub_iterate(driver);
   if (status >= 0)
     status = usub_iterate(driver);
   CHECK((usub_message(driver)[0] == 0) == (status >= 0));
+  if (status >= 0)
+    look_at_symmetry(driver);
   CHECK((status < 0 ? usub_cut_back(driver) : usub_commit(driver)) == USUB_OK);
   return status;
 }
@@ -400,8 +428,11 @@ int main(void) {
     single = 0;
     for (int32_t d = 2; d < 4; ++d) {
       run("standard", "fric", NULL, d, contacts[0], block, threads);
-      run("standard", "fric_coef", "legacy", d, contacts[0], block, threads);
-      run("standard", "fric_coef", "2022", d, contacts[0], block, threads);
+      for (method = methods; method < methods + 3; ++method) {
+        run("standard", "fric_coef", "legacy", d, contacts[0], block, threads);
+        run("standard", "fric_coef", "2022", d, contacts[0], block, threads);
+      }
+      method = methods;
     }
     run("coefficient", "fric_coef", "legacy", 3, contacts[0], block, threads);
     run("coefficient", "fric_coef", "2022", 3, contacts[0], block, threads);

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/** @file law_functions.h
+ * Functions that several laws need and that plain formulas spoil by cancellation. Included by a
+ * law's file after the header of its kind.
+ */
+#ifndef USERSUB_LAW_FUNCTIONS_H
+#define USERSUB_LAW_FUNCTIONS_H
+
+#include <float.h>
+
+#include "law/powers.h"
+
+/* Smallest normal number: a state that falls below is no state that was never set, which is 0. */
+#ifdef USUB_SINGLE
+#define USUB_TINY FLT_MIN
+#else
+#define USUB_TINY DBL_MIN
+#endif
+
+/* Largest argument of exp that leaves room for a factor. */
+#ifdef USUB_SINGLE
+#define USUB_MOST_EXPONENT 70.0f
+#else
+#define USUB_MOST_EXPONENT 600.0
+#endif
+
+/* Mean of exp(-t) for t from 0 to x, (1 - exp(-x))/x, for x >= 0; `slope` receives its derivative.
+ * A series below the corner: there the plain formulas lose digits, and all of them at zero. */
+static inline usub_real usub_mean_decay(usub_real x, usub_real *slope) {
+  if (!(x < (usub_real)0.25)) {
+    const usub_real mean = -expm1(-x) / x;
+    *slope = (exp(-x) - mean) / x;
+    return mean;
+  }
+  usub_real mean = 1;
+  *slope = 0;
+  for (int n = 12; n > 1; --n) {
+    *slope = -(mean + x * *slope) / (usub_real)n;
+    mean = 1 - x * mean / (usub_real)n;
+  }
+  return mean;
+}
+
+/* State variable of the ageing law, d theta/dt = 1 - rate theta/distance, after an increment, and
+ * its derivative by the rate. Exact for a constant rate, without cancellation at small and overflow
+ * at large slip. */
+USUB_MAY_BE_UNUSED static inline usub_real usub_aged(usub_real theta, usub_real rate,
+                                                     usub_real time_increment, usub_real distance,
+                                                     usub_real *by_rate) {
+  const usub_real x = rate * time_increment / distance, kept = theta * exp(-x);
+  usub_real slope;
+  const usub_real grown = time_increment * usub_mean_decay(x, &slope);
+  *by_rate = time_increment / distance * (time_increment * slope - kept);
+  return kept + grown > USUB_TINY ? kept + grown : USUB_TINY;
+}
+
+/* asinh(ratio exp(exponent)) for ratio >= 0, where exp(exponent) may be too large for a number;
+ * derivatives by ratio and by exponent. */
+USUB_MAY_BE_UNUSED static inline usub_real usub_asinh_product(usub_real ratio, usub_real exponent,
+                                                              usub_real *by_ratio,
+                                                              usub_real *by_exponent) {
+  const usub_real size = ratio > 0 ? log(ratio) + exponent : 0;
+  if (size > 0) {
+    const usub_real root = sqrt(1 + exp(-2 * size));
+    *by_exponent = 1 / root;
+    *by_ratio = *by_exponent / ratio;
+    return size + log1p(root);
+  }
+  const usub_real factor = exp(exponent < USUB_MOST_EXPONENT ? exponent : USUB_MOST_EXPONENT);
+  const usub_real x = ratio * factor, root = sqrt(1 + x * x);
+  *by_exponent = x / root;
+  *by_ratio = factor / root;
+  return asinh(x);
+}
+
+/* Coefficient of steady sliding of a Stribeck curve without viscous part,
+ * kinetic + (static - kinetic) exp(-(rate/velocity)^exponent), and its derivative by the rate. */
+USUB_MAY_BE_UNUSED static inline usub_real usub_stribeck(usub_real rate, usub_real at_rest,
+                                                         usub_real kinetic, usub_real velocity,
+                                                         usub_real exponent, usub_real *slope) {
+  const usub_real decay = usub_decay_of_power(rate, 0, velocity, exponent, slope);
+  *slope *= at_rest - kinetic;
+  return kinetic + (at_rest - kinetic) * decay;
+}
+
+#endif

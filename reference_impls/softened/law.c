@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* Coulomb friction whose elastic slip has a given stiffness; props: coefficient, slope of shear
+ * stress over elastic slip. vectors: elastic slip. */
+#define USUB_LAW "softened"
+#define USUB_LAW_PROPS 2
+#define USUB_LAW_VECTORS 1
+#define USUB_LAW_READS_PRESSURE
+#include <usersub/bristle_law.h>
+
+USUB_BRISTLE_FUNCTION {
+  const usub_real slope = props[1], strength = props[0] * pressure;
+  const usub_real trial[2] = {vectors[0][0] + motion[0], vectors[0][1] + motion[1]};
+  const usub_real length = hypot(trial[0], trial[1]);
+  if (slope * length < strength) {
+    for (int i = 0; i < 2; ++i) {
+      vectors[0][i] = trial[i];
+      traction[i] = slope * trial[i];
+      if (tangent)
+        tangent[i][i] = slope;
+    }
+    return;
+  }
+  const usub_real reach = length > 0 ? length : 1; /* no length: no strength either */
+  const usub_real direction[2] = {trial[0] / reach, trial[1] / reach};
+  for (int i = 0; i < 2; ++i) {
+    traction[i] = strength * direction[i];
+    vectors[0][i] = traction[i] / slope;
+    for (int j = 0; tangent && j < 2; ++j)
+      tangent[i][j] = strength / reach * ((i == j) - direction[i] * direction[j]);
+    if (tangent)
+      tangent[i][2] = props[0] * direction[i];
+  }
+}

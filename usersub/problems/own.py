@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Where the routines of the problems come from: the shipped laws, and files in `routines/` with
+laws that serve one problem only."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from usersub import laws
+from usersub.problems.choose import one_of
+
+if TYPE_CHECKING:
+    from usersub.routine.routine import Routine
+
+_SUFFIXES = {"python": ".py", "c": ".c", "fortran": ".f90"}
+
+#: Laws of single problems, and where they stand.
+OWN = {"orthotropic": ("fric",)}
+
+
+def carries(law: str, interface: str) -> bool:
+    """Whether `law` has a routine behind `interface`."""
+    return interface in (OWN[law] if law in OWN else laws.LAWS[law].interfaces)
+
+
+def path(law: str, language: str) -> Path:
+    """File of a law of one problem."""
+    return Path(__file__).with_name("routines") / f"{law}{_SUFFIXES[language]}"
+
+
+def routine(law: str, interface: str, language: str, precision: str = "double") -> Routine:
+    """The routine of a law.
+
+    Raises:
+        SceneError, LoadError: the law does not stand behind the interface.
+        MissingTool: the compiler of the language is missing.
+    """
+    if law not in OWN:
+        return laws.routine(law, interface, language, precision=precision)
+    from usersub.routine.loading import load
+
+    one_of("interface", [interface], OWN[law], f"law {law}")
+    return load(path(law, language), precision=precision)[interface]
