@@ -28,6 +28,12 @@ void probe(const double *x, const double *props, double *plain, double *dual) {
 #endif
 """
 
+
+def c_round(y):
+    """As C rounds: halves go away from zero."""
+    return mpmath.sign(y) * mpmath.floor(abs(y) + mpf(0.5))
+
+
 #: C expressions in x = rate and y = pressure, the same in mpmath, and where they may be asked.
 POSITIVE, ANY = (1 / 16, 40.0), (-20.0, 20.0)
 INSIDE, ABOVE, INDEX = (-15 / 16, 15 / 16), (17 / 16, 30.0), (0.0, 7 / 8)
@@ -74,7 +80,7 @@ EXPRESSIONS = {
     "floor(x) * y + ceil(y) * x": (
         lambda x, y: mpmath.floor(x) * y + mpmath.ceil(y) * x, ANY, ANY,
     ),
-    "trunc(x) + round(y) * x": (lambda x, y: int(x) + mpmath.nint(y) * x, ANY, ANY),
+    "trunc(x) + round(y) * x": (lambda x, y: int(x) + c_round(y) * x, ANY, ANY),
     "x > y ? x * x : y * 3": (lambda x, y: x * x if x > y else 3 * y, ANY, ANY),
     "x > 0 && !(y >= 1) && x != 2 ? x : 0": (
         lambda x, y: x if x > 0 and y < 1 else mpf(0), ANY, ANY,
