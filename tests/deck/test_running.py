@@ -219,6 +219,8 @@ def test_user_routines_run_from_their_file(text, solver, interface):
 def test_a_file_for_a_law_of_the_deck():
     with pytest.raises(DeckError, match="names no user routine"):
         friction("*FRICTION\n0.3\n").routine("mine.py")
+    with pytest.raises(DeckError, match="names no user routine"):
+        friction("*FRICTION\n0.3\n").acting("mine.py")
 
 
 def test_states_of_a_user_routine():

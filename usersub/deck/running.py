@@ -179,8 +179,7 @@ def routine(friction: Friction, path: Any, *, language: str, precision: str) -> 
     """As `Friction.routine`."""
     found = _planned(friction)
     if found.law is not None:
-        if path is not None:
-            refuse(friction.where, "the deck names no user routine, but a file is given")
+        _refuse_file(friction, path)
         return found.law.behind(found.interface, language, precision)
     if path is None:
         refuse(friction.where, f"the file of the routine {found.interface.upper()} is not given")
@@ -188,6 +187,12 @@ def routine(friction: Friction, path: Any, *, language: str, precision: str) -> 
 
     file = usersub.load(path, precision=precision, interface=found.interface)
     return file[found.interface]
+
+
+def _refuse_file(friction: Friction, path: Any) -> None:
+    """Refuses a file where a shipped law acts."""
+    if path is not None:
+        refuse(friction.where, "the deck names no user routine, but a file is given")
 
 
 def acting(friction: Friction, path: Any, *, language: str) -> interaction.Friction:
@@ -198,7 +203,7 @@ def acting(friction: Friction, path: Any, *, language: str) -> interaction.Frict
     if found.law is None:
         own = routine(friction, path, language=language, precision="double")
         return Acting(own, **found.settings)
-    del path
+    _refuse_file(friction, path)
     of_law = ("anisotropic", "props", "states")
     settings = {k: v for k, v in found.settings.items() if k not in of_law}
     return Acting(found.law.in_language(language), **settings)
