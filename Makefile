@@ -2,9 +2,9 @@
 # Task runner. `make build PYTHON=/path/to/python` works in another environment.
 PYTHON ?= python
 PYTEST_ARGS ?=
-C_SOURCES = $(wildcard csrc/driver/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h csrc/include/usersub/law/*.h)
+C_SOURCES = $(wildcard csrc/checked/*.[ch] csrc/driver/*.[ch] csrc/probe/*.[ch] csrc/runtime/*.[ch] csrc/python/*.c csrc/include/usersub/*.h csrc/include/usersub/law/*.h)
 
-.PHONY: help build gen check-gen test lint format docs bench problems clean
+.PHONY: help build gen check-gen test lint format docs bench problems conformance mutation clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -41,6 +41,12 @@ bench: ## run the benchmarks and write their table
 problems: ## measure the problems with known answers and write their pages
 	$(PYTHON) -m usersub.problems --markdown docs/explanation/problems.md
 	$(PYTHON) -m usersub.problems --newton docs/explanation/newton.md
+
+conformance: ## run all rules over planted faults and built-in laws, and write their page
+	$(PYTHON) -m tests.meta.table
+
+mutation: ## break the built-in laws in small ways, see what the rules find, and write its page
+	$(PYTHON) -m tests.meta.mutation --write
 
 clean: ## remove what was built
 	rm -rf build dist docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -39,9 +39,20 @@ class RoutineError(Error):
 
     Attributes:
         point: contact point (from 0), or None if it is not known.
+        argument: argument that it is about, newer spelling, or "" (checked drivers; so are the
+            others).
+        element: its element, from 0 in the order of memory, or None.
+        index: the same in Fortran's indices, from 1, or None.
+        access: "read", "written" or "".
+        where: "file:line" of the source, or "".
     """
 
     point: int | None = None
+    argument: str = ""
+    element: int | None = None
+    index: tuple[int, ...] | None = None
+    access: str = ""
+    where: str = ""
 
 
 class ContractError(RoutineError):

@@ -146,6 +146,12 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("dissipation", "int", 0, "1 if the driver sums the frictional dissipation (explicit)"),
     Setting("block", "int", 0, "contact points a call; 0 lets the plan choose"),
     Setting("threads", "int", 1, "threads over blocks"),
+    Setting(
+        "checked",
+        "int",
+        0,
+        "1 runs the routine in guarded memory and compares what it does; slower",
+    ),
     Setting("pass_everything", "int", 0, "1 to pass every argument, read or not (for comparison)"),
 )
 

@@ -54,6 +54,8 @@ static int32_t check_ranges(const usub_driver *driver, usub_error *error) {
     status = check_range(driver, error, "dimension", set->dimension, 2, 3);
   if (!status)
     status = check_range(driver, error, "threads", set->threads, 1, 1024);
+  if (!status)
+    status = check_range(driver, error, "checked", set->checked, 0, 1);
   if (!status && set->friction_directions) {
     const int standard = driver->face->standard;
     status = check_range(driver, error, "friction_directions", set->friction_directions,
@@ -159,6 +161,9 @@ static void choose_blocks(usub_driver *driver) {
     block = 1;
   driver->block = block < driver->size.N ? block : driver->size.N;
   driver->threads = driver->routine.thread_safe ? driver->set.threads : 1;
+  /* Blocks of VFRIC share the state of all nodes, which a checked call copies. */
+  if (driver->checked && key == USUB_INTERFACE_VFRIC && driver->size.S)
+    driver->threads = 1;
 }
 
 static void set_name(char *to, const char *from) {
@@ -218,6 +223,10 @@ static int32_t fill_driver(usub_driver *driver, const usub_scene *scene, usub_er
     status = usub_props_create(driver, scene, error);
   if (status)
     return status;
+  driver->checked = driver->set.checked;
+  driver->time_limit = USUB_TIME_LIMIT;
+  if (driver->checked)
+    usub_catch_faults(1);
   set_sizes(driver);
   choose_blocks(driver);
   driver->points = driver->size.N;

@@ -94,13 +94,16 @@ int32_t usub_replay(usub_driver *driver, usub_entry entry) {
     return usub_fail(driver, USUB_WRONG_ORDER, "%s: no block has failed", driver->title);
   /* One block with the twin in place of the routine; then everything is put back. */
   const usub_routine kept = driver->routine;
+  const int32_t checked = driver->checked;
   usub_state_keep(driver);
+  driver->checked = 0;
   driver->routine.entry = entry;
   driver->routine.style = USUB_STYLE_BLOCK;
   driver->calls[0].status = USUB_OK;
   atomic_store(&driver->first_failed, INT32_MAX);
   const int32_t status = usub_block_of(driver)(driver, &driver->calls[0], driver->failed_block);
   driver->routine = kept;
+  driver->checked = checked;
   usub_state_restore(driver);
   return status;
 }

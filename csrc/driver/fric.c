@@ -138,6 +138,9 @@ int32_t usub_fric_points(usub_driver *driver, usub_call *call, const usub_point_
   const int32_t status = usub_fric_take(driver, call, at, index, first, ended < 0 ? done : call->n);
   if (status || ended >= 0)
     return status;
+  const int32_t seen = usub_checked_fail(driver, call, index, first + done, ended);
+  if (seen)
+    return seen;
   return usub_block_fail(
       driver, call, index, first + done, ended, "FRIC: the routine ended with %s at point %d",
       ended == USUB_ROUTINE_RAISED ? "an exception" : "its status", first + done);

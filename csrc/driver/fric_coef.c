@@ -33,7 +33,8 @@ void usub_fill_flags(const usub_driver *driver, const usub_call *call, int32_t n
   if (!usub_is_live(driver, USUB_FLAGS))
     return;
   const usub_clock *clock = &driver->clock;
-  const int32_t flags[6] = {clock->flags[0], clock->flags[1], clock->iteration, node,
+  const int32_t iteration = clock->iteration ? clock->iteration : 1; /* evaluated only */
+  const int32_t flags[6] = {clock->flags[0], clock->flags[1], iteration, node,
                             driver->size.S,  driver->size.F};
   memcpy(call->argv[USUB_FLAGS], flags, sizeof flags);
 }

@@ -102,6 +102,8 @@ static int32_t ask(void *context, const double slip_data[6], usub_friction_value
   if (differentiates)
     memset(deriv, 0, 2 * USUB_DERIVATIVES * sizeof(double));
   int32_t status = usub_call_routine(driver, call);
+  if (status < 0 && usub_checked_fail(driver, call, q->index, q->point, status))
+    return status;
   if (status < 0)
     return usub_block_fail(driver, call, q->index, q->point, status,
                            "FRIC_COEF: the routine ended with %s at point %d",

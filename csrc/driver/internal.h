@@ -23,6 +23,8 @@
 #define USUB_MAX_ARGS 42
 #define USUB_MAX_SLOTS 40
 #define USUB_TEXT_LENGTH 81
+/** Seconds that the routine of a checked driver has for one call. */
+#define USUB_TIME_LIMIT 2.0
 
 typedef enum {
   USUB_KIND_OF_STANDARD,
@@ -145,6 +147,7 @@ typedef struct usub_call {
   char *scratch; /* one allocation; the sources' shares, then `axes` */
   void *axes;    /* local direction 1 of the points of a block */
   double pnewdt; /* smallest of this worker */
+  struct usub_checker *checker; /* of a checked driver (csrc/checked) */
   /* the failure of this worker in its lowest block */
   int32_t failed_block, failed_point, status;
   char message[512];
@@ -191,8 +194,11 @@ struct usub_driver {
   int32_t points; /* present now */
   int32_t block;  /* points a call */
   int32_t threads;
-  int32_t prepared; /* the plan fits the set of bound arrays */
-  int32_t aimed;    /* the fixed argument pointers are set */
+  int32_t prepared;  /* the plan fits the set of bound arrays */
+  int32_t aimed;     /* the fixed argument pointers are set */
+  int32_t checked;   /* the routine is called in guarded memory */
+  int32_t tracing;   /* and what it touches is noted */
+  double time_limit; /* seconds that it has for a call; 0: no limit */
   usub_slot slots[USUB_MAX_SLOTS];
   int32_t slot_count;
   usub_memory memory; /* of the slots */
@@ -330,6 +336,8 @@ void usub_props_free(usub_driver *driver);
 /* run.c */
 /** Calls the routine with the arguments of `call`; the caller holds the guard. */
 int32_t usub_call_routine(const usub_driver *driver, usub_call *call);
+/** Calls its entry with `argv`, whatever kind of driver it is. */
+int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv);
 /** The same under a guard; says in `reason` why it ended, if it did. */
 int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
 /** Records that the routine did not return as it should in the block that `call` aims at. */
@@ -339,6 +347,17 @@ int32_t usub_ended(usub_driver *driver, usub_call *call, int32_t index, int32_t 
 void usub_explain(const usub_driver *driver, const usub_guard *guard, char reason[256]);
 /** One block of points: fills, calls, checks, empties. */
 typedef int32_t (*usub_block_fn)(usub_driver *driver, usub_call *call, int32_t index);
+/* csrc/checked */
+/** Calls the routine of a checked driver. */
+int32_t usub_checked_call(const usub_driver *driver, usub_call *call);
+/** Records what a checked call that ended with `status` found; 0 if it found nothing. */
+int32_t usub_checked_fail(usub_driver *driver, usub_call *call, int32_t index, int32_t first,
+                          int32_t status);
+/** Forgets what the last call of a checked driver saw. */
+void usub_checked_start(usub_driver *driver);
+void usub_checker_free(struct usub_checker *checker);
+
+/* run.c */
 /** Runs all blocks over the workers and reports the failure of the lowest block. */
 int32_t usub_run_blocks(usub_driver *driver);
 /** The block function of the driver's kind. */

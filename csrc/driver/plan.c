@@ -151,7 +151,7 @@ void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, 
 int32_t usub_points_a_call(const usub_driver *driver) {
   if (driver->kind != USUB_KIND_OF_STANDARD)
     return driver->block;
-  if (driver->routine.style != USUB_STYLE_POINTS)
+  if (driver->routine.style != USUB_STYLE_POINTS || driver->checked)
     return 1;
   return driver->block < LONGEST_RUN ? driver->block : LONGEST_RUN;
 }
@@ -166,8 +166,10 @@ static size_t rounded(size_t bytes) {
 
 void usub_calls_free(usub_driver *driver) {
   if (driver->calls)
-    for (int32_t w = 0; w < driver->threads; ++w)
+    for (int32_t w = 0; w < driver->threads; ++w) {
       free(driver->calls[w].scratch);
+      usub_checker_free(driver->calls[w].checker);
+    }
   free(driver->calls);
   driver->calls = NULL;
 }

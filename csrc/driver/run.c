@@ -11,12 +11,17 @@ typedef int32_t (*block_style)(void **argv);
 typedef int32_t (*points_style)(void **argv, const int64_t *stride, int32_t count, int32_t *done);
 
 int32_t usub_call_routine(const usub_driver *driver, usub_call *call) {
+  if (__builtin_expect(driver->checked, 0))
+    return usub_checked_call(driver, call);
+  return usub_call_entry(driver, call, call->argv);
+}
+
+int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv) {
   const usub_entry entry = driver->routine.entry;
-  void *const *argv = call->argv;
   if (driver->routine.style == USUB_STYLE_BLOCK)
-    return ((block_style)entry)((void **)(uintptr_t)argv);
+    return ((block_style)entry)(argv);
   if (driver->routine.style == USUB_STYLE_POINTS)
-    return ((points_style)entry)(call->argv, driver->stride, call->n, &call->done);
+    return ((points_style)entry)(argv, driver->stride, call->n, &call->done);
   switch (usub_interface_key(driver->face) * 2 + driver->single) {
   case USUB_INTERFACE_FRIC * 2:
     usub_call_fric_d(entry, argv);
@@ -93,6 +98,13 @@ __attribute__((noinline)) int32_t usub_call_guarded(const usub_driver *driver, u
 
 int32_t usub_ended(usub_driver *driver, usub_call *call, int32_t index, int32_t first,
                    int32_t status, const char *reason) {
+  const int32_t seen = usub_checked_fail(driver, call, index, first, status);
+  if (seen)
+    return seen;
+  if (call->n == 0)
+    return usub_block_fail(driver, call, index, -1, status,
+                           "%s: the routine ended with %s in a call without points", driver->title,
+                           reason);
   if (call->n == 1)
     return usub_block_fail(driver, call, index, first, status,
                            "%s: the routine ended with %s at point %d", driver->title, reason,
@@ -122,6 +134,8 @@ int32_t usub_run_blocks(usub_driver *driver) {
   atomic_store_explicit(&driver->first_failed, INT32_MAX, memory_order_relaxed);
   for (int32_t w = 0; w < driver->threads; ++w)
     driver->calls[w].status = USUB_OK;
+  if (driver->checked)
+    usub_checked_start(driver);
   if (driver->pool && count > 1) {
     usub_pool_run(driver->pool, task, driver, count);
   } else {

@@ -108,6 +108,28 @@ static uintptr_t stack_pointer(const void *context) {
 #endif
 }
 
+static uintptr_t instruction(const void *context) {
+#if defined(__linux__) && defined(__x86_64__)
+  return (uintptr_t)((const ucontext_t *)context)->uc_mcontext.gregs[REG_RIP];
+#elif defined(__linux__) && defined(__aarch64__)
+  return (uintptr_t)((const ucontext_t *)context)->uc_mcontext.pc;
+#else
+  (void)context;
+  return 0;
+#endif
+}
+
+/* Whether a memory fault came from reading or from writing. */
+static int32_t access_of(const void *context) {
+#if defined(__linux__) && defined(__x86_64__)
+  const greg_t error = ((const ucontext_t *)context)->uc_mcontext.gregs[REG_ERR];
+  return error & 2 ? USUB_ACCESS_WRITE : USUB_ACCESS_READ;
+#else
+  (void)context;
+  return USUB_ACCESS_UNKNOWN;
+#endif
+}
+
 /* The stack pointer, or what it was about to touch, has passed the end of this thread's stack. */
 static int stack_overflow(const siginfo_t *info, const void *context) {
   const usub_thread *thread = &usub_this_thread;
@@ -123,8 +145,7 @@ static int stack_overflow(const siginfo_t *info, const void *context) {
 /* Compilers put the undefined instruction where they see that a fault is certain. */
 static int is_compiler_trap(const void *context) {
 #if defined(__linux__) && defined(__x86_64__)
-  uintptr_t place = (uintptr_t)((const ucontext_t *)context)->uc_mcontext.gregs[REG_RIP];
-  const unsigned char *code = (const unsigned char *)place;
+  const unsigned char *code = (const unsigned char *)instruction(context);
   return code[0] == 0x0f && code[1] == 0x0b;
 #else
   (void)context;
@@ -217,10 +238,20 @@ static void handle(int signal, siginfo_t *info, void *context) {
     chain(signal, info, context);
     return;
   }
+  const usub_thread *thread = &usub_this_thread;
+  const int32_t access = signal == SIGSEGV ? access_of(context) : USUB_ACCESS_UNKNOWN;
+  if (signal == SIGSEGV && thread->mend &&
+      thread->mend(thread->mend_context, (uintptr_t)info->si_addr, access, context))
+    return;
+  if (thread->placing) { /* nothing new: the search for the place of the first fault fell */
+    usub_guard_jump(guard);
+  }
   guard->status = USUB_ROUTINE_CRASHED;
+  guard->access = access;
   describe(guard->reason, sizeof guard->reason, signal, info, context);
   if (signal == SIGSEGV)
     guard->fault = (uintptr_t)info->si_addr;
+  usub_guard_note_place(guard, instruction(context));
   usub_guard_jump(guard);
 }
 

@@ -9,6 +9,10 @@
 #include "thread.h"
 #include "units.h"
 
+#if defined(__GNUC__)
+#include <unwind.h>
+#endif
+
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -43,12 +47,14 @@ void usub_guard_push(usub_guard *guard) {
   guard->status = 0;
   guard->single = 0;
   guard->fault = 0;
+  guard->access = guard->late = 0;
+  guard->place = guard->code[0] = guard->code[1] = 0;
   guard->float_control = control_get();
   guard->outer = thread->guard;
   guard->reason[0] = '\0';
   if (atomic_load_explicit(&usub_faults_caught, memory_order_relaxed) && !thread->prepared)
     usub_faults_prepare();
-  thread->chaining = 0;
+  thread->chaining = thread->placing = 0;
   thread->guard = guard;
 }
 
@@ -66,7 +72,48 @@ usub_guard *usub_guard_top(void) {
   return usub_this_thread.guard;
 }
 
+#if defined(__GNUC__)
+typedef struct place_search {
+  const uintptr_t *code;
+  uintptr_t found;
+  int frames;
+} place_search;
+
+static _Unwind_Reason_Code look(struct _Unwind_Context *context, void *data) {
+  place_search *search = data;
+  const uintptr_t at = _Unwind_GetIP(context);
+  if (at > search->code[0] && at <= search->code[1]) {
+    search->found = at - 1; /* inside of the call instruction */
+    return _URC_END_OF_STACK;
+  }
+  return ++search->frames < 64 ? _URC_NO_REASON : _URC_END_OF_STACK;
+}
+#endif
+
+uintptr_t usub_place_in(const uintptr_t code[2], uintptr_t instruction) {
+  if (!code[1] || (instruction >= code[0] && instruction < code[1]))
+    return instruction;
+#if defined(__GNUC__)
+  /* A damaged stack faults here: then the handler comes again, and the place stays as it is. */
+  if (usub_this_thread.placing)
+    return instruction;
+  usub_this_thread.placing = 1;
+  place_search search = {code, 0, 0};
+  _Unwind_Backtrace(look, &search);
+  usub_this_thread.placing = 0;
+  if (search.found)
+    return search.found;
+#endif
+  return instruction;
+}
+
+void usub_guard_note_place(usub_guard *guard, uintptr_t instruction) {
+  guard->place = instruction; /* in case that the search falls */
+  guard->place = usub_place_in(guard->code, instruction);
+}
+
 _Noreturn void usub_guard_jump(usub_guard *guard) {
+  usub_this_thread.placing = 0;
   usub_mutex_release();
   control_set(guard->float_control);
   /* Whoever lands has left this guard: leaving again from there goes one further out. */
@@ -84,6 +131,8 @@ _Noreturn void usub_guard_leave(int32_t status, const char *format, ...) {
   if (guard != NULL) {
     guard->status = status;
     memcpy(guard->reason, reason, sizeof reason);
+    if (guard->code[1])
+      usub_guard_note_place(guard, 0);
     usub_guard_jump(guard);
   }
   /* User code that no driver called: the program ends, as the routine asked. */

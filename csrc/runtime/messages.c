@@ -23,6 +23,8 @@ void usub_set_message_handler(usub_message_fn handler, void *context) {
 }
 
 int usub_say(int32_t level, const char *format, ...) {
+  if (usub_this_thread.muted)
+    return 1;
   /* The handler runs outside of the lock: it may itself wait for a thread that sets a handler. */
   pthread_mutex_lock(&job.lock);
   usub_message_fn handler = job.handler;

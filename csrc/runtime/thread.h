@@ -22,7 +22,14 @@ typedef struct usub_thread {
   uint64_t held[2];                 /* utility mutexes that this thread has locked, one bit each */
   int32_t prepared;                 /* an alternate signal stack is there */
   int32_t chaining;                 /* inside an earlier fault handler */
+  int32_t muted;                    /* messages of routines go nowhere: they have been said */
+  int32_t placing;                  /* looking for the place of a fault */
   uintptr_t stack_low, stack_guard; /* lowest address of the stack, bytes of its guard area */
+  /* Asked first about memory faults (address, USUB_ACCESS_..., registers): 1 if the access can be
+   * tried again
+   */
+  int (*mend)(void *context, uintptr_t address, int32_t access, void *machine);
+  void *mend_context;
 } usub_thread;
 
 /* Initial-exec: one instruction to reach, and safe in signal handlers. */

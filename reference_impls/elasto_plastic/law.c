@@ -12,6 +12,8 @@
 #include <usersub/law_functions.h>
 
 #define PI ((usub_real)3.14159265358979323846)
+/* Motion, in units of the limit, that ends in steady slip to rounding. */
+#define STEADY 40
 
 /* Gap and angle; their derivatives by the gap at the beginning; those by the direction of the
  * motion, of the angle in space, which are small where the motion is. */
@@ -54,7 +56,7 @@ static usub_real safe_step(const usub_real *y, usub_real width) {
 /* After a motion: extrapolated midpoint sums; a long motion ends in steady slip, exp(-40) away. */
 static void approach(usub_real *y, int numbers, usub_real motion, usub_real width) {
   usub_real rate[NUMBERS], before[NUMBERS], here[NUMBERS], change[NUMBERS];
-  if (motion > 40) {
+  if (motion > STEADY) {
     for (int i = 0; i < numbers; ++i)
       y[i] = i == ANGLE_BY_TURN;
     return;
@@ -152,7 +154,9 @@ static void end_change(const path *p, const change *d, usub_real limit, usub_rea
   usub_real gap, angle, stick, bend[2], speed[2];
   end_of(p, bend, speed);
   begin_change(p, d, &gap, &angle, &stick);
-  const usub_real left = d->motion - stick, turn = d->angle - angle;
+  /* In steady slip a longer motion changes nothing; by a tiny pressure it changes without bound. */
+  const int steady = p->motion - p->stick > STEADY;
+  const usub_real left = steady ? 0 : d->motion - stick, turn = d->angle - angle;
   const usub_real d_gap = p->y[GAP_BY_GAP] * gap + p->y[GAP_BY_TURN] * turn - c * p->slack * left;
   const usub_real d_angle =
       p->y[ANGLE_BY_GAP] * gap + angle + p->y[ANGLE_BY_TURN] * turn - s / bent * left;

@@ -170,7 +170,7 @@ contains
     s = sin(p%y(2))
     c = cos(p%y(2))
     moved = p%y(3:4)*gap + p%y(5:6)*(d%angle - angle) + [0.0_wp, angle] &
-        - [c*p%slack, s/(1 - p%y(1))]*(d%motion - stick)
+        - [c*p%slack, s/(1 - p%y(1))]*merge(0.0_wp, d%motion - stick, p%motion - p%stick > 40)
     d_bend = limit*(-moved(1)*[c, s] + (1 - p%y(1))*moved(2)*[-s, c]) + d%limit*bend
     d_velocity = [2*s*c, s*s - c*c]*(1 - p%slack)*(moved(2) - d%angle) + [c, s]*c*p%slope*moved(1)
     d_velocity = rate*(d_velocity + d%angle*[-speed(2), speed(1)]) + d%rate*speed

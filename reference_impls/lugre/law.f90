@@ -31,10 +31,10 @@ contains
       along = 0
       if (length > 0) along = motion/length
       x = 0
-      if (strength > 0) x = min(stiffness*length/strength, 1e30_wp)
+      if (limit > tiny(limit)) x = min(stiffness*length/strength, 1e30_wp)
       speed = 0 ! of z, at the end
 
-      if (.not. strength > 0) then ! the bristle carries nothing, but it will with the pressure
+      if (.not. limit > tiny(limit)) then ! the bristle carries nothing, it will with the pressure
         z = 0
         if (present(tangent)) tangent(:, 3) = mu*along
       else if (x > 0) then

@@ -56,7 +56,7 @@ def maxwell_slip(motion, time_increment, pressure, vectors, state, props):
             if not (state[i] > 0.0 and along > 0.0):
                 reach = 0.0 * along
                 if abs(across) < limit:
-                    reach = math.sqrt((limit - across) * (limit + across))
+                    reach = math.sqrt(limit - across) * math.sqrt(limit + across)
                 if along < reach:
                     begin, stick = reach, (reach - along) / stiffness
             if length < stick:

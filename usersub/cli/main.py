@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line: `usersub demo | run | deck | laws | fit | info | new | ...`."""
+"""The command line: `usersub demo | run | check | deck | laws | fit | info | new | ...`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from usersub.cli.interrupt import end_when_interrupted
 _LAZY = {
     "demo": ("usersub.cli.demo", "Run problems with known answers through every interface."),
     "run": ("usersub.cli.run", "Run a scene file: a routine through a history or a problem."),
+    "check": ("usersub.cli.check", "Tell whether a routine keeps the contract of its interface."),
+    "check-host": ("usersub.cli.check_host", "Tell whether a host calls routines as it should."),
     "deck": ("usersub.cli.deck", "Tell what an input deck says of friction, and what runs."),
     "laws": ("usersub.cli.laws", "List the shipped laws, or tell all of one."),
     "fit": ("usersub.cli.fit", "Find the properties of a law that fit measured coefficients."),

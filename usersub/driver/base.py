@@ -7,6 +7,7 @@ import functools
 import sys
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,9 +15,12 @@ import numpy as np
 from usersub._prepared import Prepared
 from usersub.core import ffi, lib, text
 from usersub.driver import handles, status
+from usersub.driver.alone import alone
 from usersub.driver.arrays import Layout
+from usersub.driver.checked import Checked
 from usersub.driver.clock import Clock, int32
 from usersub.driver.law import LawLike, routine_and_scene
+from usersub.driver.observed import Observed, attach, observe
 from usersub.driver.plan import Plan, PlanRow
 from usersub.driver.scene import Scene
 from usersub.driver.state import State
@@ -24,23 +28,11 @@ from usersub.errors import RoutineError, SceneError
 from usersub.routine.routine import Routine
 
 _RAISED = status.VALUES["ROUTINE_RAISED"]
+#: What the uncompiled twin of a Python routine may explain: it looks at indices and at inputs.
+_EXPLAINED = ("outside", "input written", "left out", "red zone")
 
 
-def alone(method: Callable) -> Callable:
-    """Refuses a call of a driver's method while another thread is in one: they share memory."""
-
-    @functools.wraps(method)
-    def call(self: Driver, *arguments: Any, **named: Any) -> Any:
-        self._enter()
-        try:
-            return method(self, *arguments, **named)
-        finally:
-            self._lock.release()
-
-    return call
-
-
-class Driver:
+class Driver(Checked):
     """A routine in a scene. Made once; afterwards a call is one pointer.
 
     One thread may use a driver at a time; different drivers are independent, and a call frees the
@@ -78,6 +70,8 @@ class Driver:
         self._points = scene["points"]
         self._clock = Clock()
         self._lock = threading.RLock()
+        if scene["checked"] and hasattr(self._entry.keep, "exception"):
+            self.time_limit = 0.0  # the interpreter cannot be left in the middle
         self.state = State(self)
 
     def __repr__(self) -> str:
@@ -283,7 +277,13 @@ class Driver:
         raised = status.exception(found, text(lib.usub_message(self._handle)), point)
         if not isinstance(raised, RoutineError):
             raise raised
-        cause, where = self._cause() if found == _RAISED else (None, "")
+        self._where = ""
+        seen = observe(self._handle, self.routine) if self.scene["checked"] else Observed()
+        cause, where = self._cause() if found == _RAISED or seen.what in _EXPLAINED else (None, "")
+        if seen.what != "nothing":
+            self._where, where = where, where or seen.where
+            attach(raised, replace(seen, where=where))
+        raised.where = where
         if cause is not None and not _of_routine(cause):
             raise cause
         words = f": {_words(cause)}" if cause is not None else ""

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from usersub.core import ffi, lib, text
-from usersub.driver.base import Driver, alone
+from usersub.driver.alone import alone
+from usersub.driver.base import Driver
 from usersub.driver.clock import real
 
 _OUTPUTS = ("tau", "ddtddg", "ddtddp", "ddtddt", "lm", "dslip", "sed", "sfd")

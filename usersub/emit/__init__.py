@@ -16,11 +16,13 @@ GENERATORS = (
     "status_header",
     "core_tables",
     "calls",
+    "probe",
     "fortran_module",
     "fortran_lists",
     "field_files",
     "reference",
     "law_readme",
+    "rule_page",
 )
 
 

@@ -10,7 +10,10 @@ from pycparser import c_ast, c_parser
 
 from usersub.emit import cdef
 
-_PRELUDE = "typedef int int32_t; typedef unsigned long size_t;\n"
+_PRELUDE = (
+    "typedef int int32_t; typedef long int64_t; typedef unsigned long uint64_t; "
+    "typedef unsigned long size_t;\n"
+)
 _COMMENT = re.compile(r"/\*.*?\*/", re.S)
 
 
@@ -36,12 +39,14 @@ class Function:
 
 @dataclass(frozen=True)
 class Declarations:
-    """Handles (opaque types), structs with their members, callback types, functions."""
+    """Handles (opaque types), structs with their members, callback types, functions, and the
+    values of enumerations."""
 
     handles: tuple[str, ...]
     structs: dict[str, tuple[Name, ...]]
     callbacks: tuple[str, ...]
     functions: tuple[Function, ...]
+    constants: dict[str, int]
 
 
 def declarations() -> Declarations:
@@ -49,7 +54,8 @@ def declarations() -> Declarations:
     region = _COMMENT.sub("", cdef.tagged_region())
     tree = c_parser.CParser().parse(_PRELUDE + region)
     handles, structs, callbacks, functions = [], {}, [], []
-    for node in tree.ext[2:]:
+    constants: dict[str, int] = {}
+    for node in tree.ext[4:]:
         if isinstance(node, c_ast.Typedef):
             if isinstance(node.type, c_ast.PtrDecl):
                 callbacks.append(node.name)
@@ -59,9 +65,11 @@ def declarations() -> Declarations:
                 structs[node.name] = tuple(_name(d.name, d.type) for d in node.type.type.decls)
         elif isinstance(node, c_ast.Decl) and isinstance(node.type, c_ast.FuncDecl):
             functions.append(_function(node))
+        elif isinstance(node, c_ast.Decl) and isinstance(node.type, c_ast.Enum):
+            constants |= {e.name: int(e.value.value) for e in node.type.values.enumerators}
         else:
             raise ValueError(f"usersub.h declares something unexpected near {node.coord}")
-    return Declarations(tuple(handles), structs, tuple(callbacks), tuple(functions))
+    return Declarations(tuple(handles), structs, tuple(callbacks), tuple(functions), constants)
 
 
 def _function(node: c_ast.Decl) -> Function:

@@ -12,6 +12,8 @@ PATH = "csrc/include/usersub/usersub.f90"
 
 _SCALARS = {
     "int32_t": "integer(c_int32_t)",
+    "int64_t": "integer(c_int64_t)",
+    "uint64_t": "integer(c_int64_t)",
     "int": "integer(c_int)",
     "size_t": "integer(c_size_t)",
     "double": "real(c_double)",
@@ -87,7 +89,7 @@ def artefacts() -> dict[str, str]:
     found = c_declarations.declarations()
     parts = [
         text.banner(__name__, "fortran") + _HEAD + "  private :: joined\n",
-        _constants(),
+        _constants(found),
         *(_handle(name) for name in found.handles),
         *(_struct(name, members) for name, members in found.structs.items()),
         "  interface\n",
@@ -105,9 +107,10 @@ def artefacts() -> dict[str, str]:
     return {PATH: "\n".join(parts)}
 
 
-def _constants() -> str:
+def _constants(found: Declarations) -> str:
     rows = [f"usub_status_{s.name.lower()} = {s.value}" for s in STATUSES]
     rows += ["usub_style_full = 0", "usub_style_block = 1"]
+    rows += [f"{name.lower()} = {value}" for name, value in found.constants.items()]
     rows += [f"usub_name_length = {abi.NAME_LENGTH}"]
     rows += [f"usub_module_abi_version = {abi.ABI_VERSION}"]
     lines = [f"  integer(c_int32_t), parameter :: {row}" for row in rows]

@@ -91,7 +91,7 @@ class FiniteElementBlock:
             stick = stick_force_kinematic(sliding, normal, bottom_mass, h)
             contact.move((mesh.coordinates + u.reshape(-1, d))[mesh.bottom].T, sliding)
             slip = mean_slip(last, sliding, friction, bottom_mass, h)
-            friction = contact.force(slip, pressed, stick, h, t + h)
+            friction = contact.force(slip, pressed, stick, h, t + 0.5 * dt)
             nodal[mesh.bottom] += (h * friction / bottom_mass).T
             now, here = float(mean @ v), float(mean @ u) - start
             if history is not None:

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.block import NOT_STOPPED, Block, Stop
 from usersub.problems.problem import Stopwatch
 from usersub.problems.rigid import contact_areas
@@ -68,7 +69,7 @@ class ImplicitBlock:
         for share in (0.0, 1.0):
             self.driver.begin_increment(1.0)
             self.slip[...] = share * self.allowable * _DIRECTION[:, None]
-            self.driver.iterate()
+            fixed.iterate(self.driver)
             self.driver.commit()
 
     def increment(self, v: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray]:
@@ -79,7 +80,7 @@ class ImplicitBlock:
         for _ in range(_NEWTON_LIMIT):
             self.slip[...] = dx[:, None]
             with self.watch:
-                response = self.driver.iterate()
+                response = fixed.iterate(self.driver)
             self.iterations += 1
             inertia = m * (2.0 * dx / dt - 2.0 * v) / dt
             residual = inertia + response.tau @ area

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.problem import Stopwatch
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ class LinearHost:
         driver.bind(slip_increment=self._slip, pressure=self._pressure,
                     multiplier=self._multiplier, **extra)  # fmt: skip
         driver.begin_increment(1.0)  # closes the contact: no friction yet
-        driver.iterate()
+        fixed.iterate(driver)
         driver.commit()
         self.watch = Stopwatch()
 
@@ -147,7 +148,7 @@ class LinearHost:
             self._pressure[...] = springs.pressure + springs.pressure_change @ x
         self.iterations += 1
         with self.watch:
-            return self.driver.iterate()
+            return fixed.iterate(self.driver)
 
     def _change(
         self, matrix: np.ndarray, residual: np.ndarray, answer: StandardResponse

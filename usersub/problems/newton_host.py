@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from usersub.driver.standard import StandardDriver, StandardResponse
+from usersub.problems import fixed
 
 #: Iterations of an increment at most, and the residual at which it has converged, as a fraction of
 #: the forces.
@@ -168,7 +169,7 @@ class NewtonHost:
     def _ask(self, motion: np.ndarray) -> StandardResponse:
         self.slip[...] = (motion - self.motion)[self.sliding].T
         self.pressure[...] = CONTACT * motion[self.normal]
-        return self.driver.iterate()
+        return fixed.iterate(self.driver)
 
     def _residual(
         self, motion: np.ndarray, force: np.ndarray, answer: StandardResponse

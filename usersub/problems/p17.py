@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.problem import Outcome, Problem, Stopwatch
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class Sliders:
         for motion in (0.0, allowable):  # closes the contact, uses up the elastic slip
             self.motion[...] = motion * self.along
             self.driver.begin_increment(0.0)
-            self.driver.iterate()
+            fixed.iterate(self.driver)
             self.driver.commit()
         self.state = self.driver.state["state"]
         self.stiffness, self.velocity = stiffness * PRESSURE, velocity.copy()
@@ -124,7 +125,7 @@ class Sliders:
         """Traction along each direction and its derivative by the motion."""
         self.motion[...] = motion * self.along
         with self.watch:
-            response = self.driver.iterate()
+            response = fixed.iterate(self.driver)
         self.calls += 1
         tau, tangent = (response.tau * self.along).sum(0), response.ddtddg
         assert tangent is not None  # the scene has tangents

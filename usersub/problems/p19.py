@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.problem import Outcome, Problem, Stopwatch
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ class Particles:
         self.driver.bind(slip_increment=self.slip, multiplier=self.multiplier,
                          pressure=np.full(points, GRAVITY), **extra)  # fmt: skip
         self.driver.begin_increment(1.0)  # closes the contact: no friction yet
-        self.driver.iterate()
+        fixed.iterate(self.driver)
         self.driver.commit()
         self.iterations = 0
         self.watch = Stopwatch()
@@ -108,7 +109,7 @@ class Particles:
         for _ in range(_NEWTON_LIMIT):
             self.slip[...] = motion
             with self.watch:
-                answer = self.driver.iterate()
+                answer = fixed.iterate(self.driver)
             self.iterations += 1
             assert answer.ddtddg is not None
             stuck = answer.lm == 1

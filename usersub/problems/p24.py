@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from usersub.errors import SceneError
+from usersub.problems import fixed
 from usersub.problems.problem import Outcome, Problem, Stopwatch
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ class _Standard:
         before = self.elastic_slip()
         self.driver.begin_increment(_TIME_INCREMENT)
         with self.watch:
-            response = self.driver.iterate()
+            response = fixed.iterate(self.driver)
         self.driver.commit()
         change = self.elastic_slip() - before
         self.sed = response.sed.copy()

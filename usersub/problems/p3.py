@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.problem import Outcome, Problem, Stopwatch
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def run(
     extra = {"coord": np.zeros((3, points), order="F")} if "coord" in known else {}
     driver.bind(slip_increment=dgam, pressure=np.ones(points), **extra)
     driver.begin_increment(1.0)  # closes the contact: no friction yet
-    driver.iterate()
+    fixed.iterate(driver)
     driver.commit()
     watch, slip, error, iterations = Stopwatch(), np.zeros((2, points)), 0.0, 0
     for dt in increments:
@@ -51,7 +52,7 @@ def run(
         dgam[...] = 0.0
         for _ in range(_NEWTON_LIMIT):
             with watch:
-                response = driver.iterate()
+                response = fixed.iterate(driver)
             iterations += 1
             residual = response.tau - wanted
             if np.abs(residual).max() <= 1e-14 * TRACTION:

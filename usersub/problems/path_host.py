@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from usersub import laws
+from usersub.problems import fixed
 from usersub.problems.explicit_contact import ExplicitContact
 from usersub.problems.problem import Outcome, Stopwatch
 
@@ -56,7 +57,7 @@ class _Standard:
         for motion in (0.0, elastic)[: 1 if elastic == 0.0 else 2]:
             self.motion[...] = motion * self.along
             self.driver.begin_increment(0.0)
-            self.driver.iterate()
+            fixed.iterate(self.driver)
             self.driver.commit()
 
     def move(self, motion: float, pressure: float, dt: float, watch: Stopwatch) -> np.ndarray:
@@ -64,7 +65,7 @@ class _Standard:
         self.motion[...], self.pressure[...] = motion * self.along, pressure
         self.driver.begin_increment(dt)
         with watch:
-            response = self.driver.iterate()
+            response = fixed.iterate(self.driver)
         self.driver.commit()
         return response.tau
 

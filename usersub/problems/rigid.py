@@ -77,7 +77,8 @@ def central_differences(
     before = 0.0
     while t < end:
         slip = mean_slip(*(np.array([[a]]) for a in (v, v, -before)), np.array([m]), h)
-        now = force(v, float(slip[0, 0]), h, t + h)
+        # The velocity goes from the middle of one increment to that of the next.
+        now = force(v, float(slip[0, 0]), h, t + 0.5 * time_increment)
         if now * h >= v * m * (1.0 - 1e-6):
             # The bound took the share `now/before` of the last increment, counted from where v
             # belongs.

@@ -147,7 +147,8 @@ class CentralDifferences:
         """Friction that takes the predicted velocity at most to that of the ground."""
         predicted = float(self.v[0] - ground)
         told = 0.0 if self.sticks or not self.moves else predicted * width
-        self.friction, sticks = self.rubbing.ask(told, predicted, width, now)
+        until = now + 0.5 * self.increment
+        self.friction, sticks = self.rubbing.ask(told, predicted, width, until)
         self.v[0] = ground if sticks else self.v[0] + width * self.friction / self.system.masses[0]
         self._note(sticks, now)
         self.moves = not sticks

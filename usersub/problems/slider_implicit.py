@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.problems import fixed
 from usersub.problems.problem import Stopwatch
 from usersub.problems.slider import System
 from usersub.problems.slider_explicit import shares_of
@@ -75,14 +76,14 @@ class ImplicitContact:
     def _close(self) -> None:
         """Closes the contact: its first increment has no friction."""
         self.driver.begin_increment(1.0)
-        self.driver.iterate()
+        fixed.iterate(self.driver)
         self.driver.commit()
 
     def _ask(self, slip: float) -> float:
         """Friction force on the mass after a slip."""
         self.slip[...] = _ALONG * slip
         with self.watch:
-            response = self.driver.iterate()
+            response = fixed.iterate(self.driver)
         return -float((_ALONG * (response.tau * self.area)).sum())
 
     def _sliding(self, slip: float) -> float:

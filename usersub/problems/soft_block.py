@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from usersub.problems import rigid
+from usersub.problems import fixed, rigid
 from usersub.problems.block import Block
 from usersub.problems.explicit_contact import ExplicitContact
 from usersub.problems.problem import Stopwatch
@@ -101,7 +101,7 @@ class ImplicitBlock:
         pressure = np.full(points, block.pressure)
         self.driver.bind(slip_increment=self.slip, pressure=pressure, **extra)
         self.driver.begin_increment(1.0)  # closes the contact: no friction yet
-        self.driver.iterate()
+        fixed.iterate(self.driver)
         self.driver.commit()
         self.watch = Stopwatch()
 
@@ -121,7 +121,7 @@ class ImplicitBlock:
         for _ in range(_NEWTON_LIMIT):
             self.slip[...] = _ALONG * motion
             with self.watch:
-                response = self.driver.iterate()
+                response = fixed.iterate(self.driver)
             friction = float((_ALONG * (response.tau * self.area)).sum())
             along = np.einsum("ai,abn,bi,n->", _ALONG, response.ddtddg, _ALONG, self.area)
             residual = 2.0 * m * (motion / h - v) / h + 0.5 * (before + friction)

@@ -66,6 +66,27 @@ def signatures(path: Path, symbols: set[str]) -> dict[str, Signature]:
     return found
 
 
+def variables(path: Path) -> dict[str, str]:
+    """Where variables and COMMON blocks are declared ("file:line"), by lower-case name, in an ELF
+    file with debug information. Of several of one name the first counts."""
+    from elftools.elf.elffile import ELFFile
+
+    found: dict[str, str] = {}
+    with path.open("rb") as file:
+        elf = ELFFile(file)
+        if not elf.has_dwarf_info():
+            return found
+        dwarf = elf.get_dwarf_info()
+        for unit in dwarf.iter_CUs():
+            for die in unit.iter_DIEs():
+                if die.tag not in ("DW_TAG_variable", "DW_TAG_common_block"):
+                    continue
+                name, line = _text(die, "DW_AT_name"), _value(die, "DW_AT_decl_line")
+                if name and line:
+                    found.setdefault(name.lower(), f"{_file(dwarf, unit, die)}:{line}")
+    return found
+
+
 def _functions(top) -> Iterator:
     for die in top.iter_children():
         if die.tag in ("DW_TAG_module", "DW_TAG_namespace"):

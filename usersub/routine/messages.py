@@ -108,7 +108,9 @@ class _Unit:
     def lines(self) -> list[str]:
         """Lines that are new since the last time."""
         found = self._helper.usub_unit_flush(self._number, self._path, len(self._path))
-        data = os.pread(self._handle, 1 << 30, self._at)
+        # As much as there is: a buffer of fixed size would have to hold the longest output.
+        fresh = max(os.fstat(self._handle).st_size - self._at, 0)
+        data = os.pread(self._handle, fresh, self._at)
         self._at += len(data)
         if found == _OWN and self._owner == os.getpid():
             if self._at > _LARGEST:

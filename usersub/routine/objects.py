@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -131,10 +131,83 @@ def _last_name(mangled: str) -> str:
 def _stripped_data(elf) -> set[str]:
     """A stripped library keeps no names; more data than the compiler's own start-up code has is
     taken for state of the routine."""
+    return {words for words, _ in _stripped_sections(elf)}
+
+
+def _stripped_sections(elf) -> list[tuple[str, int]]:
+    """Sections with such data, in words, and their bytes."""
+    found = [(s.name, s["sh_size"]) for s in elf.iter_sections() if s.name in (".data", ".bss")]
+    return [
+        (f"{size} bytes of {name} (the library has no names)", size)
+        for name, size in found
+        if size > 8
+    ]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A variable of an object file that outlives a call: its name for people and its bytes."""
+
+    people: str
+    size: int
+
+
+def kept_by(path: Path, start: Iterable[str] | None = None) -> list[Kept]:
+    """Writable variables that the functions `start` of an object can come to touch; all of them
+    without `start`.
+
+    Needs one section a function and a variable (`-ffunction-sections -fdata-sections`).
+    """
+    from elftools.elf.elffile import ELFFile
+
+    with path.open("rb") as file:
+        elf: Any = ELFFile(file)
+        table = elf.get_section_by_name(".symtab")
+        if table is None:
+            return [Kept(words, size) for words, size in _stripped_sections(elf)]
+        symbols = list(table.iter_symbols())
+        of_section: dict[int, list[Any]] = {}
+        for symbol in symbols:
+            if symbol["st_info"]["type"] == "STT_OBJECT" and isinstance(symbol["st_shndx"], int):
+                of_section.setdefault(symbol["st_shndx"], []).append(symbol)
+        if start is None:
+            touched = {s.name: s for s in symbols if s.name}
+        else:
+            touched = {}
+            for number, place in _walked(elf, symbols, start):
+                # What is in the section alone, or what is named.
+                named = symbols[number]
+                inside = of_section.get(place, []) if not named.name else [named]
+                touched.update((s.name, s) for s in inside if s.name)
+        found = [
+            Kept(people, int(symbol["st_size"]))
+            for symbol in touched.values()
+            if (people := _shared_name(elf, symbol))
+        ]
+        return sorted(found, key=lambda kept: kept.people)
+
+
+def _walked(elf: Any, symbols: list, start: Iterable[str]) -> Iterator[tuple[int, int]]:
+    """(number of a symbol, its section, -1 for none) of everything that is referred to from the
+    functions `start` and what they call."""
+    edges: dict[int, set[int]] = {}
     for section in elf.iter_sections():
-        if section.name in (".data", ".bss") and section["sh_size"] > 8:
-            return {f"{section['sh_size']} bytes of {section.name} (the library has no names)"}
-    return set()
+        if section["sh_type"] in ("SHT_RELA", "SHT_REL"):
+            target = elf.get_section(section["sh_info"])
+            if target["sh_flags"] & 0x2 and not target.name.startswith(".eh_frame"):
+                used = {r["r_info_sym"] for r in section.iter_relocations()}
+                edges.setdefault(section["sh_info"], set()).update(used)
+    home = {s.name: s["st_shndx"] for s in symbols if isinstance(s["st_shndx"], int) and s.name}
+    todo = [home[name] for name in start if name in home]
+    seen = set(todo)
+    while todo:
+        for number in edges.get(todo.pop(), ()):
+            place = symbols[number]["st_shndx"]
+            inside = isinstance(place, int)
+            yield number, place if inside else -1
+            if inside and place not in seen:
+                seen.add(place)
+                todo.append(place)
 
 
 def reached(path: Path, start: Iterable[str]) -> set[str]:
@@ -147,23 +220,8 @@ def reached(path: Path, start: Iterable[str]) -> set[str]:
     with path.open("rb") as file:
         elf: Any = ELFFile(file)
         symbols = list(elf.get_section_by_name(".symtab").iter_symbols())
-        edges: dict[int, set[int]] = {}
-        for section in elf.iter_sections():
-            if section["sh_type"] in ("SHT_RELA", "SHT_REL"):
-                target = elf.get_section(section["sh_info"])
-                if target["sh_flags"] & 0x2 and not target.name.startswith(".eh_frame"):
-                    used = {r["r_info_sym"] for r in section.iter_relocations()}
-                    edges.setdefault(section["sh_info"], set()).update(used)
-        home = {s.name: s["st_shndx"] for s in symbols if isinstance(s["st_shndx"], int) and s.name}
-        todo = [home[name] for name in start if name in home]
-        seen, missing = set(todo), set()
-        while todo:
-            for number in edges.get(todo.pop(), ()):
-                symbol = symbols[number]
-                place = symbol["st_shndx"]
-                if place == "SHN_UNDEF":
-                    missing.add(symbol.name)
-                elif isinstance(place, int) and place not in seen:
-                    seen.add(place)
-                    todo.append(place)
-        return missing
+        return {
+            symbols[number].name
+            for number, _ in _walked(elf, symbols, start)
+            if symbols[number]["st_shndx"] == "SHN_UNDEF"
+        }

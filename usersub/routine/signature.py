@@ -61,18 +61,36 @@ def check(
             f"{where} has {count} arguments, expected {wanted}; the list is "
             f"{', '.join(a.modern for a in face.args)}"
         )
-    faults = []
-    for i, (parameter, argument) in enumerate(zip(found.parameters, face.args, strict=False)):
-        fault = _fault(parameter, argument, precision, language, i in unused)
-        if fault:
-            place = f"line {parameter.line}, " if parameter.line > found.line else ""
-            faults.append(
-                f"argument {i + 1} ({place}'{parameter.name or 'unnamed'}', in the place of "
-                f"{argument.modern}) {fault}"
-            )
-    if faults:
-        more = f"; and {len(faults) - 3} more arguments" if len(faults) > 3 else ""
-        raise AbiError(f"{where}: {'; '.join(faults[:3])}{more}")
+    found_faults = faults(found, face, precision, language, unused)
+    if found_faults:
+        words = [
+            f"argument {i + 1} ({_place(found, i)}'{found.parameters[i].name or 'unnamed'}', in "
+            f"the place of {face.args[i].modern}) {fault}"
+            for i, fault in found_faults[:3]
+        ]
+        left = len(found_faults) - 3
+        more = f"; and {left} more arguments" if left > 0 else ""
+        raise AbiError(f"{where}: {'; '.join(words)}{more}")
+
+
+def _place(found: Signature, position: int) -> str:
+    line = found.parameters[position].line
+    return f"line {line}, " if line > found.line else ""
+
+
+def faults(
+    found: Signature,
+    face: abi.Interface,
+    precision: str,
+    language: str,
+    unused: frozenset[int] = frozenset(),
+) -> list[tuple[int, str]]:
+    """What is wrong with the kinds of arguments, by position; arguments as of `check`."""
+    judged = (
+        (i, _fault(parameter, argument, precision, language, i in unused))
+        for i, (parameter, argument) in enumerate(zip(found.parameters, face.args, strict=False))
+    )
+    return [(i, fault) for i, fault in judged if fault]
 
 
 def _fault(

@@ -32,6 +32,25 @@ module usersub
   integer(c_int32_t), parameter :: usub_status_bad_state = -14
   integer(c_int32_t), parameter :: usub_style_full = 0
   integer(c_int32_t), parameter :: usub_style_block = 1
+  integer(c_int32_t), parameter :: usub_saw_nothing = 0
+  integer(c_int32_t), parameter :: usub_saw_outside = 1
+  integer(c_int32_t), parameter :: usub_saw_input_written = 2
+  integer(c_int32_t), parameter :: usub_saw_left_out = 3
+  integer(c_int32_t), parameter :: usub_saw_not_written = 4
+  integer(c_int32_t), parameter :: usub_saw_output_read = 5
+  integer(c_int32_t), parameter :: usub_saw_uninitialised = 6
+  integer(c_int32_t), parameter :: usub_saw_not_repeated = 7
+  integer(c_int32_t), parameter :: usub_saw_crash = 8
+  integer(c_int32_t), parameter :: usub_saw_stop = 9
+  integer(c_int32_t), parameter :: usub_saw_time = 10
+  integer(c_int32_t), parameter :: usub_saw_red_zone = 11
+  integer(c_int32_t), parameter :: usub_access_unknown = 0
+  integer(c_int32_t), parameter :: usub_access_read = 1
+  integer(c_int32_t), parameter :: usub_access_write = 2
+  integer(c_int32_t), parameter :: usub_flag_invalid = 1
+  integer(c_int32_t), parameter :: usub_flag_division = 2
+  integer(c_int32_t), parameter :: usub_flag_overflow = 4
+  integer(c_int32_t), parameter :: usub_flag_underflow = 8
   integer(c_int32_t), parameter :: usub_name_length = 80
   integer(c_int32_t), parameter :: usub_module_abi_version = 1
   character(len=*), parameter :: usub_module_abi_hash = '23d98400839f14ce'
@@ -72,6 +91,31 @@ module usersub
     integer(c_int32_t) :: solver_switches
     character(kind=c_char) :: sentence(512)
   end type usub_symmetry
+
+  type, bind(C) :: usub_observed
+    integer(c_int32_t) :: what
+    integer(c_int32_t) :: argument
+    integer(c_int64_t) :: element
+    integer(c_int32_t) :: access
+    integer(c_int32_t) :: point
+    integer(c_int32_t) :: status
+    integer(c_int32_t) :: flags
+    integer(c_int64_t) :: place
+    integer(c_int64_t) :: unwritten
+    integer(c_int64_t) :: read
+    integer(c_int64_t) :: written
+    integer(c_int32_t) :: rank
+    integer(c_int64_t) :: index(3)
+    character(kind=c_char) :: sentence(512)
+  end type usub_observed
+
+  type, bind(C) :: usub_meeting
+    integer(c_int32_t) :: met
+    integer(c_int32_t) :: status_one
+    integer(c_int32_t) :: status_two
+    integer(c_int64_t) :: place
+    integer(c_int64_t) :: address
+  end type usub_meeting
 
   interface
 
@@ -350,6 +394,44 @@ module usersub
       type(usub_driver), value :: driver
       integer(c_int32_t) :: answer
     end function usub_evaluate
+
+    function usub_get_observed(driver, observed) bind(C, name='usub_get_observed') &
+        result(answer)
+      import
+      type(usub_driver), value :: driver
+      type(usub_observed), intent(out) :: observed
+      integer(c_int32_t) :: answer
+    end function usub_get_observed
+
+    function usub_set_time_limit(driver, seconds) bind(C, name='usub_set_time_limit') &
+        result(answer)
+      import
+      type(usub_driver), value :: driver
+      real(c_double), value :: seconds
+      integer(c_int32_t) :: answer
+    end function usub_set_time_limit
+
+    function usub_trace(driver, on) bind(C, name='usub_trace') result(answer)
+      import
+      type(usub_driver), value :: driver
+      integer(c_int32_t), value :: on
+      integer(c_int32_t) :: answer
+    end function usub_trace
+
+    function usub_call_empty_block(driver) bind(C, name='usub_call_empty_block') result(answer)
+      import
+      type(usub_driver), value :: driver
+      integer(c_int32_t) :: answer
+    end function usub_call_empty_block
+
+    function usub_meet(one, two, turn, meeting) bind(C, name='usub_meet') result(answer)
+      import
+      type(usub_driver), value :: one
+      type(usub_driver), value :: two
+      integer(c_int32_t), value :: turn
+      type(usub_meeting), intent(out) :: meeting
+      integer(c_int32_t) :: answer
+    end function usub_meet
 
     function usub_state_size(driver) bind(C, name='usub_state_size') result(answer)
       import

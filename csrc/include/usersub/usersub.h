@@ -23,8 +23,8 @@
  * Every function that can fail returns a status of `status.h`: 0 success, positive "valid outputs,
  * but the host should act", negative "state, and arrays that are added to, are as before the call;
  * outputs are not defined". No function prints or exits. Global to the process are only the fault
- * handlers that `usub_catch_faults` installs when asked, the receiver of messages, and what the
- * utility routines keep for user code (job name, mutexes, allocatable arrays).
+ * handlers that `usub_catch_faults` and checked drivers install, the receiver of messages, and what
+ * the utility routines keep for user code (job name, mutexes, allocatable arrays).
  * A driver may be used by one thread at a time; different drivers are independent.
  */
 #ifndef USERSUB_USERSUB_H
@@ -202,6 +202,77 @@ double usub_dissipation(const usub_driver *driver);
 double usub_elastic_energy(const usub_driver *driver);
 /** Coefficient: friction coefficients of all points. */
 int32_t usub_evaluate(usub_driver *driver);
+
+/* Checked drivers (scene setting `checked`): every call of the routine is several calls in guarded
+ * memory, whose answers are compared. Fault handlers are installed for the process. */
+
+/** What the last call of a checked driver saw. */
+enum {
+  USUB_SAW_NOTHING = 0,
+  USUB_SAW_OUTSIDE = 1,       /* an element outside of an argument was read or written */
+  USUB_SAW_INPUT_WRITTEN = 2, /* an argument that is only read was written */
+  USUB_SAW_LEFT_OUT = 3,      /* an argument was touched that the routine is said not to use */
+  USUB_SAW_NOT_WRITTEN = 4,   /* an output that a host cannot do without was not written */
+  USUB_SAW_OUTPUT_READ = 5,   /* an output was read before it was written */
+  USUB_SAW_UNINITIALISED = 6, /* a local variable was read before it was set */
+  USUB_SAW_NOT_REPEATED = 7,  /* the same input gave another answer */
+  USUB_SAW_CRASH = 8,         /* a signal that no argument explains */
+  USUB_SAW_STOP = 9,          /* STOP, XIT, exit, abort */
+  USUB_SAW_TIME = 10,         /* no return within the time limit */
+  USUB_SAW_RED_ZONE = 11      /* memory beside an argument was written; found after the call */
+};
+/** What was done to an element. */
+enum { USUB_ACCESS_UNKNOWN = 0, USUB_ACCESS_READ = 1, USUB_ACCESS_WRITE = 2 };
+/** Floating-point exceptions, as bits. Compilers raise some that the source does not. */
+enum {
+  USUB_FLAG_INVALID = 1,
+  USUB_FLAG_DIVISION = 2,
+  USUB_FLAG_OVERFLOW = 4,
+  USUB_FLAG_UNDERFLOW = 8
+};
+
+typedef struct usub_observed {
+  int32_t what;       /* USUB_SAW_... */
+  int32_t argument;   /* its position, -1 if it is about none */
+  int64_t element;    /* from 0 in the order of memory; may lie outside; -1 if it is about none */
+  int32_t access;     /* USUB_ACCESS_... */
+  int32_t point;      /* contact point from 0, -1 if it is not known */
+  int32_t status;     /* of the call */
+  int32_t flags;      /* floating-point exceptions of all points */
+  uint64_t place;     /* address of the instruction, 0 if it is not known */
+  uint64_t unwritten; /* outputs (bit per argument) that some call left as they were */
+  uint64_t read;      /* arguments that were touched, if tracing is on: read before written, */
+  uint64_t written;   /* and written */
+  int32_t rank;       /* indices of the element: their number (0: the argument is one number), */
+  int64_t index[3];   /* and they themselves, from 1, in Fortran's order */
+  char sentence[512];
+} usub_observed;
+
+/** What the last call of a checked driver saw: of the failure, if it failed; bits are of all calls
+ * of the routine. WRONG_ORDER unless the driver is checked. */
+int32_t usub_get_observed(const usub_driver *driver, usub_observed *observed);
+/** Seconds that the routine of a checked driver has for one call; 0: no limit; 2 until it is set.
+ * A routine that is ended may leave locks and memory behind. */
+int32_t usub_set_time_limit(usub_driver *driver, double seconds);
+/** Checked: whether calls also find out which arguments the routine reads and writes. */
+int32_t usub_trace(usub_driver *driver, int32_t on);
+/** Explicit and coefficient: one call of the routine without any contact point. State stays as it
+ * is. */
+int32_t usub_call_empty_block(usub_driver *driver);
+
+/** How two threads met in one routine. */
+typedef struct usub_meeting {
+  int32_t met;                    /* the first thread made that many writes */
+  int32_t status_one, status_two; /* of the two calls */
+  uint64_t place, address;        /* the instruction that wrote, and where; 0 if there was none */
+} usub_meeting;
+
+/** The next call of two drivers of one routine (usub_iterate, usub_step or usub_evaluate), such
+ * that all of the second one happens right behind the write number `turn` (from 1) of the first one
+ * to data that the library of the routine keeps; after it if there are fewer. Answers that differ
+ * from those of one call after the other are due to these data. Both drivers are not checked and
+ * have one thread; no other thread may be in the library. Linux on x86-64. */
+int32_t usub_meet(usub_driver *one, usub_driver *two, int32_t turn, usub_meeting *meeting);
 
 /** Bytes that `usub_state_save` writes. */
 size_t usub_state_size(const usub_driver *driver);

@@ -65,7 +65,7 @@ def expected(host, generation, precision, haves, block, states=0):
     coefficients[:, 1] = np.nan
     return common | {
         "fCoef": coefficients, "fCoefDeriv": np.zeros((count, 20, 2)),
-        "iData": np.array([2, 5, 0, block.start + 1, states, 2]),
+        "iData": np.array([2, 5, 1, block.start + 1, states, 2]),
         "rData": np.array([*TIMES, 1, 0, 0, 1, *(10.0 + block.start + np.arange(states))]),
         "slipData": host["slip_data"][:, block].T,
     }  # fmt: skip

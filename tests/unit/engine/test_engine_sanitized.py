@@ -24,7 +24,8 @@ def test_every_kind_of_driver_is_clean(tmp_path):
     probe = [compiler, *SANITIZERS, "none.c", "-o", "none"]
     if subprocess.run(probe, cwd=tmp_path, capture_output=True).returncode != 0:
         pytest.skip("the compiler has no sanitizers; install libasan and libubsan")
-    sources = [*(ROOT / "csrc/driver").glob("*.c"), *(ROOT / "csrc/runtime").glob("*.c")]
+    folders = ("driver", "runtime", "checked")
+    sources = [path for folder in folders for path in (ROOT / "csrc" / folder).glob("*.c")]
     command = [
         compiler, "-std=gnu11", "-g", "-O1", "-ffp-contract=off", *WARNINGS, *SANITIZERS,
         "-D_GNU_SOURCE", '-DUSUB_RELEASE="0"', f"-I{ROOT / 'csrc/include'}",

@@ -23,6 +23,7 @@ static _Thread_local volatile double sum; /* so that no read is optimised away *
 static int32_t broken; /* what the routines do wrong: 1 NaN, 2 exception, 3 XIT, 4 exit */
 
 static int32_t single;
+static int32_t checked; /* the routines are called in guarded memory */
 
 static void read_all(const void *data, int32_t count) {
   double total = 0;
@@ -235,6 +236,7 @@ static usub_scene *scene_of(int32_t d, const char *contact, int32_t block, int32
   CHECK(usub_scene_set_int(scene, "dimension", d) == USUB_OK);
   CHECK(usub_scene_set_int(scene, "block", block) == USUB_OK);
   CHECK(usub_scene_set_int(scene, "threads", threads) == USUB_OK);
+  CHECK(usub_scene_set_int(scene, "checked", checked) == USUB_OK);
   CHECK(usub_scene_set_text(scene, "contact", contact) == USUB_OK);
   CHECK(usub_scene_set_text(scene, "precision", single ? "single" : "double") == USUB_OK);
   CHECK(usub_scene_set_real(scene, "elastic_slip", 0.125) == USUB_OK);
@@ -409,7 +411,7 @@ static void run(const char *kind, const char *interface, const char *generation,
   usub_routine_free(routine);
 }
 
-int main(void) {
+static void run_all(void) {
   const char *const contacts[] = {"node-to-facet", "edge-to-edge", "analytical-rigid"};
   const int32_t ways[][2] = {{0, 1}, {1, 1}, {4, 3}};
   for (size_t w = 0; w < 3; ++w) {
@@ -437,6 +439,11 @@ int main(void) {
     run("coefficient", "fric_coef", "legacy", 3, contacts[0], block, threads);
     run("coefficient", "fric_coef", "2022", 3, contacts[0], block, threads);
   }
+}
+
+int main(void) {
+  for (checked = 0; checked < 2; ++checked)
+    run_all();
   puts("ok");
   return 0;
 }

@@ -23,6 +23,7 @@ static const double area = 1.0; /* of a point */
 
 /* What the host keeps at its contact points; there is one friction direction in two dimensions. */
 static double slip_increment[POINTS], pressure[POINTS], tau[POINTS], ddtddg[POINTS];
+static int32_t lm[POINTS];
 
 /* All that a host has to do about errors: stop at the first negative status and show the message.
  */
@@ -54,6 +55,7 @@ static usub_driver *make_driver(const usub_routine *routine, const usub_scene *s
   check(usub_bind(driver, "pressure", pressure, POINTS), usub_message(driver));
   check(usub_bind(driver, "tau", tau, POINTS), usub_message(driver));
   check(usub_bind(driver, "ddtddg", ddtddg, POINTS), usub_message(driver));
+  check(usub_bind(driver, "lm", lm, POINTS), usub_message(driver));
   return driver;
 }
 
@@ -69,6 +71,8 @@ static int solve(usub_driver *driver, double before, double dt, double *speed) {
       return 1;
     double residual = mass * (*speed - before) / dt, tangent = mass / dt;
     for (int i = 0; i < POINTS; i++) {
+      if (lm[i] == 1)
+        check(USUB_NOT_SUPPORTED, "LM = 1, but this host has no Lagrange multipliers");
       residual += area * tau[i];
       tangent += area * ddtddg[i] * dt;
     }
@@ -95,9 +99,10 @@ int main(int count, char **arguments) {
   for (int i = 0; i < POINTS; i++)
     pressure[i] = contact_pressure;
 
-  double time = 0, distance = 0, speed = start_speed, after, deceleration = 0, dt = 1e-6;
+  const double closing = 1e-6;
+  double time = closing, distance = 0, speed = start_speed, after, deceleration = 0, dt = 1e-6;
   /* The first increment closes the contact, at rest: a point that was open has no friction yet. */
-  check(usub_set_time(driver, 1, 1, dt, dt, dt), usub_message(driver));
+  check(usub_set_time(driver, 1, 1, closing, closing, closing), usub_message(driver));
   check(usub_begin_increment(driver), usub_message(driver));
   check(usub_iterate(driver), usub_message(driver));
   check(usub_commit(driver), usub_message(driver));
@@ -123,7 +128,7 @@ int main(int count, char **arguments) {
   }
   /* The rest of the way, at the deceleration of the last full increment. */
   printf("host=c interface=%s stop_time=%.16e stop_distance=%.16e\n", arguments[2],
-         time + speed / deceleration, distance + 0.5 * speed * speed / deceleration);
+         time - closing + speed / deceleration, distance + 0.5 * speed * speed / deceleration);
 
   usub_driver_free(driver);
   usub_scene_free(scene);

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* VFRIC_COEF: decay by slip rate; props: coefficient at rest, at high rate, decay (time/length).
+ * props: 0.3, 0.2, 5
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    const double rate = slipRate[k];
+    fCoef[k] = (usub_real)(moving + (rest - moving) * exp(-decay * rate));
+  }
+}

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+# Only the first point of a block is answered.
+# planted: blocks.coefficient: point 2
+# props: 0.3, 0.2, 5
+import math
+
+import usersub
+
+
+@usersub.fric_coef
+def decays(fCoef, fCoefDeriv, props, slipRate):
+    rest, moving, decay = props[0], props[1], props[2]
+    for k in range(1):
+        rate = slipRate[k]
+        change = (rest - moving) * math.exp(-decay * rate)
+        fCoef[k] = moving + change
+        fCoefDeriv[k, 0] = -decay * change  # by rate, pressure, temperature
+        fCoefDeriv[k, 1] = fCoefDeriv[k, 2] = 0.0

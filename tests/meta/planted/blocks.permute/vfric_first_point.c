@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* The rate of the first point is taken for all.
+ * planted: blocks.permute: order|permut|place|position
+ * props: 0.3, 0.2, 5
+ * also: blocks.split
+ * also: extremes.not-a-number
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfric, VFRIC)(USUB_VFRIC_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2], dt = *dTimCur;
+  for (int k = 0; k < *nContact; ++k) {
+    if (fNormal[k] <= 0)
+      continue;
+    const double slip = dSlipFric[0], rate = dt > 0 ? slip / dt : 0;
+    const double mu = moving + (rest - moving) * exp(-decay * rate);
+    double force = mu * fNormal[k];
+    if (force > fStickForce[k])
+      force = fStickForce[k];
+    fTangential[*nFricDir * k] = (usub_real)-force;
+  }
+}

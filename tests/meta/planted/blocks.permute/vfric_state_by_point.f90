@@ -1,0 +1,28 @@
+! SPDX-License-Identifier: MIT
+! The state is looked up by contact point, not by node.
+! planted: blocks.permute: order|permut|place|position
+! props: 0.3, 0.2, 0.01
+! states: 1
+! precision: single
+! also: blocks.split
+subroutine vfric( &
+#include "usersub/arguments/vfric_names.fi"
+  implicit none
+#include "usersub/arguments/vfric_types.fi"
+  integer, parameter :: wp = kind(props)
+  real(wp) :: first, last, length, mu, force
+  integer :: k, node
+  first = props(1)
+  last = props(2)
+  length = props(3)
+  if (nStateVar < 1) return
+  do k = 1, nContact
+    if (fNormal(k) <= 0) cycle
+    node = k
+    statev(1, node) = statev(1, node) + dSlipFric(1, k)
+    mu = last + (first - last)*exp(-statev(1, node)/length)
+    force = mu*fNormal(k)
+    if (force > fStickForce(k)) force = fStickForce(k)
+    fTangential(1, k) = -force
+  end do
+end subroutine

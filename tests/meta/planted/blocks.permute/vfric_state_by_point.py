@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# The state is looked up by contact point, not by node.
+# planted: blocks.permute: order|permut|place|position
+# props: 0.3, 0.2, 0.01
+# states: 1
+# also: blocks.split
+import math
+
+import usersub
+
+
+@usersub.vfric
+def weakens(fTangential, statev, jConSecid, nStateVar, nContact, props, dSlipFric, fStickForce,
+            fNormal):  # fmt: skip
+    first, last, length = props[0], props[1], props[2]
+    if nStateVar < 1:
+        return
+    for k in range(nContact):
+        if fNormal[k] <= 0:
+            continue
+        node = k
+        statev[0, node] += dSlipFric[0, k]
+        mu = last + (first - last) * math.exp(-statev[0, node] / length)
+        force = mu * fNormal[k]
+        if force > fStickForce[k]:
+            force = fStickForce[k]
+        fTangential[0, k] = -force

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* The second component is left over from the last increment.
+ * planted: bound.cone: expected at most
+ * props: 0.3, 0.2, 5
+ * also: frame.*
+ * also: bound.opposes-slip
+ * also: bound.stick-force
+ * also: energy.*
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfriction, VFRICTION)(USUB_VFRICTION_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2], dt = rData[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    if (fNormal[k] <= 0)
+      continue;
+    const double slip = dSlipFric[*nDir * k], rate = dt > 0 ? slip / dt : 0;
+    const double mu = moving + (rest - moving) * exp(-decay * rate);
+    double force = mu * fNormal[k];
+    if (force > fStickForce[k])
+      force = fStickForce[k];
+    fTangential[*nFricDir * k] = (usub_real)-force;
+    fTangential[*nFricDir * k + 1] = fTangPrev[*nDir * k + 1];
+  }
+}

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# The force has the sign of FRIC and pushes the surface along.
+# planted: bound.opposes-slip: (?i)oppos|sign|along|against
+# props: 0.3, 0.2, 5
+# also: energy.dissipation
+# also: bound.stick-force
+# also: bound.cone
+import math
+
+import usersub
+
+
+@usersub.vfric
+def decays(fTangential, nContact, dTimCur, props, dSlipFric, fStickForce, fNormal):
+    rest, moving, decay, dt = props[0], props[1], props[2], dTimCur
+    for k in range(nContact):
+        if fNormal[k] <= 0:
+            continue
+        slip = dSlipFric[0, k]
+        rate = slip / dt if dt > 0 else 0.0
+        mu = moving + (rest - moving) * math.exp(-decay * rate)
+        force = mu * fNormal[k]
+        if force > fStickForce[k]:
+            force = fStickForce[k]
+        fTangential[0, k] = force

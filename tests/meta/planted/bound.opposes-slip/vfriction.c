@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* The force has the sign of FRIC and pushes the surface along.
+ * planted: bound.opposes-slip: (?i)oppos|sign|along|against
+ * props: 0.3, 0.2, 5
+ * also: energy.dissipation
+ * also: bound.stick-force
+ * also: bound.cone
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfriction, VFRICTION)(USUB_VFRICTION_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2], dt = rData[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    if (fNormal[k] <= 0)
+      continue;
+    const double slip = dSlipFric[*nDir * k], rate = dt > 0 ? slip / dt : 0;
+    const double mu = moving + (rest - moving) * exp(-decay * rate);
+    double force = mu * fNormal[k];
+    if (force > fStickForce[k])
+      force = fStickForce[k];
+    fTangential[*nFricDir * k] = (usub_real)force;
+  }
+}

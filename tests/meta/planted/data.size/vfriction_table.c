@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* A table of 64 MiB lies in the library, and in every process.
+ * planted: data.size: table|MiB
+ * props: 0.3, 0.2, 5
+ * also: data.shared
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+static double table[8 << 20]; /* by node */
+
+void FOR_NAME(vfriction, VFRICTION)(USUB_VFRICTION_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2], dt = rData[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    if (fNormal[k] <= 0)
+      continue;
+    const double slip = dSlipFric[*nDir * k], rate = dt > 0 ? slip / dt : 0;
+    const double mu = moving + (rest - moving) * exp(-decay * rate);
+    double force = mu * fNormal[k];
+    if (force > fStickForce[k])
+      force = fStickForce[k];
+    fTangential[*nFricDir * k] = (usub_real)-force;
+    double *last = table + (jConSecUid[*nNodSec * k] & 0x7fffff);
+    if (*last < -1)
+      return;
+    *last = force;
+  }
+}

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+# The direction of friction is that of all slip so far, with the sign of the motion.
+# planted: frame.turn: turn|direction|90
+# props: 0.3, 1000
+# also: tangent.slip
+# also: slip.*
+# also: energy.*
+import math
+
+import usersub
+
+
+@usersub.fric
+def coulomb(LM, TAU, DDTDDG, DDTDDP, DSLIP, SED, SFD, DDTDDT, DGAM, SLIP, PRESS, PROPS, NFDIR):
+    if LM[0] == 2:
+        return  # open until now: no friction in the increment that closes the point
+    mu, stiffness = PROPS[0], PROPS[1]
+    limit = 0.0 if PRESS < 0 else mu * PRESS / stiffness
+    x = TAU[0] / stiffness + DGAM[0]
+    y = TAU[1] / stiffness + DGAM[1] if NFDIR == 2 else 0.0
+    length = math.hypot(x, y)
+    gone = math.hypot(SLIP[0], SLIP[1]) if NFDIR == 2 else 0.0
+    if gone > 0:  # along the groove that the slip has made
+        side = math.copysign(length, x * SLIP[0] + y * SLIP[1])
+        x, y = side * (SLIP[0] / gone), side * (SLIP[1] / gone)
+    slips = not length <= limit
+    part = limit / length if slips else 1.0
+    along = (x / length, y / length) if slips else (0.0, 0.0)
+
+    LM[0] = 0
+    SED[0] = SFD[0] = 0.0
+    for a in range(NFDIR):
+        elastic = x if a == 0 else y
+        for b in range(NFDIR):
+            DDTDDG[a, b] = stiffness * part * ((a == b) - along[a] * along[b])
+        DDTDDP[a] = 0.0 if PRESS < 0 else mu * along[a]
+        DDTDDT[a, 0] = DDTDDT[a, 1] = 0.0
+        TAU[a] = stiffness * part * elastic
+        DSLIP[a] = (1 - part) * elastic
+        SED[0] += 0.5 * TAU[a] * part * elastic
+        SFD[0] += TAU[a] * DSLIP[a]

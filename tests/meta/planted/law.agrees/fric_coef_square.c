@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* The decay goes with the square of the rate.
+ * planted: law.agrees: (?i)exponential_decay|agree|law
+ * props: 0.3, 0.2, 5
+ * law: exponential_decay
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(fric_coef, FRIC_COEF)(USUB_FRIC_COEF_2022_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2];
+  const int n = *nBlock;
+  for (int k = 0; k < n; ++k) {
+    const double rate = slipData[k], change = (rest - moving) * exp(-decay * decay * rate * rate);
+    fCoef[k] = moving + change;
+    fCoefDeriv[k] = -2 * decay * decay * rate * change; /* by rate, pressure, temperature */
+    fCoefDeriv[k + n] = fCoefDeriv[k + 2 * n] = 0;
+  }
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* The decay goes with the square of the rate.
+ * planted: law.agrees: (?i)exponential_decay|agree|law
+ * props: 0.3, 0.2, 5
+ * law: exponential_decay
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    const double rate = slipRate[k];
+    fCoef[k] = (usub_real)(moving + (rest - moving) * exp(-decay * decay * rate * rate));
+  }
+}

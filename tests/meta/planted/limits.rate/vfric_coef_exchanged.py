@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# The coefficients at rest and at high rate are exchanged.
+# planted: limits.rate: (?i)rest|rate|limit
+# props: 0.3, 0.2, 5
+import math
+
+import usersub
+
+
+@usersub.vfric_coef
+def decays(fCoef, nBlock, props, slipRate):
+    rest, moving, decay = props[1], props[0], props[2]
+    for k in range(nBlock):
+        rate = slipRate[k]
+        fCoef[k] = moving + (rest - moving) * math.exp(-decay * rate)

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* For pressures of zero and below the coefficient is left as it was.
+ * planted: outputs.written: fCoef
+ * props: 0.3, 0.2, 5
+ */
+#include <math.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(fric_coef, FRIC_COEF)(USUB_FRIC_COEF_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2];
+  const int n = *nBlock;
+  for (int k = 0; k < n; ++k) {
+    const double rate = slipRate[k], change = (rest - moving) * exp(-decay * rate);
+    if (pressure[k] > 0)
+      fCoef[k] = moving + change;
+    fCoefDeriv[k] = -decay * change; /* by rate, pressure, temperature */
+    fCoefDeriv[k + n] = fCoefDeriv[k + 2 * n] = 0;
+  }
+}

@@ -1,0 +1,22 @@
+! SPDX-License-Identifier: MIT
+! A power of the pressure stands below the line.
+! planted: pressure.zero: (?i)pressure
+! props: 0.3, 0.2, 5
+! also: extremes.*
+subroutine fric_coef( &
+#include "usersub/arguments/fric_coef_2022_names.fi"
+  implicit none
+#include "usersub/arguments/fric_coef_2022_types.fi"
+  double precision :: rest, moving, decay, rate, change
+  integer :: k
+  rest = props(1)
+  moving = props(2)
+  decay = props(3)
+  do k = 1, nBlock
+    rate = slipData(k, 1)
+    change = (rest - moving)*exp(-decay*rate)
+    fCoef(k, 1) = moving + change*pressure(k)/pressure(k)
+    fCoefDeriv(k, 1, 1) = -decay*change  ! by rate, pressure, temperature
+    fCoefDeriv(k, 2:3, 1) = 0
+  end do
+end subroutine

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# A power of the pressure stands below the line.
+# planted: pressure.zero: (?i)pressure
+# props: 0.3, 0.2, 5
+# also: extremes.*
+import math
+
+import usersub
+
+
+@usersub.fric_coef
+def decays(fCoef, fCoefDeriv, nBlock, props, slipData, pressure):
+    rest, moving, decay = props[0], props[1], props[2]
+    for k in range(nBlock):
+        rate = slipData[k, 0]
+        change = (rest - moving) * math.exp(-decay * rate)
+        fCoef[k, 0] = moving + change * pressure[k] / pressure[k]
+        fCoefDeriv[k, 0, 0] = -decay * change  # by rate, pressure, temperature
+        fCoefDeriv[k, 1, 0] = fCoefDeriv[k, 2, 0] = 0.0

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* Every call writes a line.
+ * planted: process.output: (?i)writ|print|line
+ * props: 0.3, 0.2, 5
+ */
+#include <math.h>
+#include <stdio.h>
+#include <usersub/abi.h>
+
+void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {
+  const double rest = props[0], moving = props[1], decay = props[2];
+  for (int k = 0; k < *nBlock; ++k) {
+    const double rate = slipRate[k];
+    printf("rate %g\n", rate);
+    fCoef[k] = (usub_real)(moving + (rest - moving) * exp(-decay * rate));
+  }
+}

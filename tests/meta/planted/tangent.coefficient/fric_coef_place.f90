@@ -1,0 +1,22 @@
+! SPDX-License-Identifier: MIT
+! The derivative by the slip rate stands in the place of that by the pressure.
+! planted: tangent.coefficient: fCoefDeriv
+! props: 0.3, 0.2, 5
+subroutine fric_coef( &
+#include "usersub/arguments/fric_coef_2022_names.fi"
+  implicit none
+#include "usersub/arguments/fric_coef_2022_types.fi"
+  double precision :: rest, moving, decay, rate, change
+  integer :: k
+  rest = props(1)
+  moving = props(2)
+  decay = props(3)
+  do k = 1, nBlock
+    rate = slipData(k, 1)
+    change = (rest - moving)*exp(-decay*rate)
+    fCoef(k, 1) = moving + change
+    fCoefDeriv(k, 2, 1) = -decay*change  ! by rate, pressure, temperature
+    fCoefDeriv(k, 1, 1) = 0
+    fCoefDeriv(k, 3, 1) = 0
+  end do
+end subroutine

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Every fault that was planted is found by its own rule, in the right words, and by no other.
+
+Own rules are run for every fault in a language that goes round; all rules for the healthy files and
+for a fault of every second rule. USERSUB_EVERYTHING=1 takes every file by its own rule, and `python
+-m tests.meta.table` all rules for all files.
+"""
+
+import tomllib
+from itertools import groupby
+
+import pytest
+
+from tests.conformance import law_matrix
+from tests.meta import planting
+from tests.meta.planting import Planted
+from usersub.check import all_rules as rules
+
+PLANTED = planting.files("planted")
+HEALTHY = planting.files("healthy")
+
+
+def languages() -> dict[str, dict[str, str]]:
+    """Rule -> language -> why the fault cannot be made in it."""
+    with (planting.HERE / "planted/languages.toml").open("rb") as stream:
+        return tomllib.load(stream)
+
+
+def every_second_rule() -> list[Planted]:
+    """One file of every second rule, in languages that go round."""
+    groups = [list(files) for _, files in groupby(PLANTED, key=lambda p: p.rule)]
+    return [files[i % len(files)] for i, files in enumerate(groups)][::2]
+
+
+def needs(planted: Planted, request: pytest.FixtureRequest) -> None:
+    """Skips where the compiler of the file is missing."""
+    if planted.language == "fortran":
+        request.getfixturevalue("fortran")
+
+
+def test_every_rule_has_its_fault_in_every_language():
+    made = {(p.rule, p.language) for p in PLANTED}
+    excused = {(rule, language) for rule, why in languages().items() for language in why}
+    wanted = {(rule, language) for rule in rules() for language in ("c", "fortran", "python")}
+    assert wanted - made - excused == set()
+    assert made & excused == set(), "excused, but made"
+    assert {rule for rule, _ in made | excused} <= set(rules())
+
+
+def test_faults_are_spread_over_interfaces_and_precisions():
+    names = {p.path.name.split(".")[0] for p in PLANTED}
+    for interface in ("fric", "fric_coef", "vfric", "vfriction", "vfric_coef"):
+        assert sum(name.startswith(interface) for name in names) >= 10
+    assert {p.precision for p in PLANTED} == {"double", "single"}
+
+
+def faults() -> list[Planted]:
+    """One file of each fault, in languages that go round, or all."""
+    if law_matrix.everything():
+        return PLANTED
+    groups = [list(g) for _, g in groupby(PLANTED, key=lambda p: (p.rule, p.path.stem))]
+    return [files[i % len(files)] for i, files in enumerate(groups)]
+
+
+@pytest.mark.parametrize("planted", faults(), ids=lambda p: p.id)
+def test_is_found_by_its_own_rule(planted: Planted, request: pytest.FixtureRequest):
+    needs(planted, request)
+    planted.caught(planted.check([planted.rule], jobs=1, seconds=600))
+
+
+@pytest.mark.parametrize("planted", every_second_rule(), ids=lambda p: p.id)
+def test_is_found_by_no_other_rule(planted: Planted, request: pytest.FixtureRequest):
+    needs(planted, request)
+    reports = planted.check(jobs=1, seconds=600)
+    planted.caught(reports)
+    assert planted.others(reports) == []
+
+
+@pytest.mark.parametrize("healthy", HEALTHY, ids=lambda p: p.path.name)
+def test_healthy_routines_break_nothing(healthy: Planted, request: pytest.FixtureRequest):
+    needs(healthy, request)
+    for report in healthy.check(jobs=1, seconds=600):
+        found = [f"{r.rule}: {r.detail}" for r in report.failures if r.severity != "note"]
+        assert found == [], str(report)
+        assert [f"{r.rule}: {r.detail}" for r in report.results if r.verdict == "skip"] == []

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""A routine against the built-in law that it claims to be."""
