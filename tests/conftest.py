@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
+import signal
 
 import mpmath
 import pytest
@@ -18,6 +20,12 @@ _NO_FORTRAN = "gfortran is missing; install it, for example with `apt-get instal
 
 #: Digits of every truth, once: a module that set its own would change those of the others.
 mpmath.mp.dps = 60
+
+# A shell without job control starts programs in the background with Ctrl-C ignored, and what they
+# start inherits that: tests of interruption would wait for ever.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    with contextlib.suppress(ValueError):  # not the main thread
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _forbid_skips() -> bool:

@@ -20,7 +20,8 @@ The names below are loaded when they are first used, so that a program imports o
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING
+
+TYPE_CHECKING = False  # as `typing` has it, which would take longer than all the rest
 
 if TYPE_CHECKING:
     from usersub import deck as deck

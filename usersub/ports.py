@@ -144,6 +144,13 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("temperature_tangent", "int", 0, "1 if the host wants DDTDDT (standard)"),
     Setting("derivatives", "int", 0, "1 if the host wants fCoefDeriv (coefficient driver)"),
     Setting("dissipation", "int", 0, "1 if the driver sums the frictional dissipation (explicit)"),
+    Setting(
+        "skip_open",
+        "int",
+        0,
+        "1 if points without normal force are left out of the routine's blocks: no force, state as "
+        "it was (VFRICTION, VFRIC_COEF)",
+    ),
     Setting("block", "int", 0, "contact points a call; 0 lets the plan choose"),
     Setting("threads", "int", 1, "threads over blocks"),
     Setting(

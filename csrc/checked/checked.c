@@ -167,7 +167,7 @@ int32_t usub_checked_fail(usub_driver *driver, usub_call *call, int32_t index, i
   const char *title = driver->title;
   /* What "of which there are 2" and "which is an input" end with. */
   const char *comma = strstr(seen->sentence, "which ") ? "," : "";
-  seen->point = seen->point >= 0 ? first + seen->point : -1;
+  seen->point = seen->point >= 0 ? first + usub_point_at(call, seen->point) : -1;
   if (seen->point >= 0)
     return usub_block_fail(driver, call, index, seen->point, status, "%s: %s%s at point %d", title,
                            seen->sentence, comma, seen->point);
@@ -175,5 +175,6 @@ int32_t usub_checked_fail(usub_driver *driver, usub_call *call, int32_t index, i
     return usub_block_fail(driver, call, index, -1, status, "%s: %s%s in a call without points",
                            title, seen->sentence, comma);
   return usub_block_fail(driver, call, index, -1, status, "%s: %s%s in points %d to %d", title,
-                         seen->sentence, comma, first, first + call->n - 1);
+                         seen->sentence, comma, first + usub_point_at(call, 0),
+                         first + usub_point_at(call, call->n - 1));
 }

@@ -110,9 +110,19 @@ static inline void F(usub_axes_project)(const R a[3], const R n[3], R v[3]) {
   v[2] = a[2] - along * n[2];
 }
 
+/** Whether a sum of squares has neither overflown nor underflown. */
+static inline int F(usub_axes_is_usual)(R whole) {
+  return (whole >= USUB_AXES_FLOOR) & (whole <= USUB_AXES_CEILING);
+}
+
+/** Tangential part, squared, over the whole that is rounding: (4 eps)^2. */
+static inline R F(usub_axes_noise)(void) {
+  return (R)16 * USUB_AXES_EPSILON * USUB_AXES_EPSILON;
+}
+
 /** Projection of a slip whose squares neither overflow nor underflow; returns |v|. */
 static inline R F(usub_axes_tangential3)(const R slip[3], const R n[3], R v[3]) {
-  const R noise = (R)16 * USUB_AXES_EPSILON * USUB_AXES_EPSILON;
+  const R noise = F(usub_axes_noise)();
   const R whole = slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2];
   F(usub_axes_project)(slip, n, v);
   R part = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -145,7 +155,7 @@ static inline R F(usub_tangential3)(const R slip[3], const R n[3], R v[3]) {
 
 /** In two dimensions the tangent is known: only the sign and the length depend on the slip. */
 static inline void F(usub_axes2)(const R slip[2], const R n[2], R t1[2], R *length) {
-  const R noise = (R)16 * USUB_AXES_EPSILON * USUB_AXES_EPSILON;
+  const R noise = F(usub_axes_noise)();
   R x = slip[0], y = slip[1];
   R whole = x * x + y * y;
   int e = 0;
@@ -214,10 +224,12 @@ static inline void F(usub_zero_slip_axis)(const R n[3], R t1[3]) {
 
 static inline void F(usub_axes3)(const R slip[3], const R n[3], R t1[3], R t2[3], R *length) {
   const R whole = slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2];
-  R v[3], size;
+  R v[3] = {0, 0, 0}, size;
   int e = 0;
-  if (whole >= USUB_AXES_FLOOR && whole <= USUB_AXES_CEILING) {
+  if (F(usub_axes_is_usual)(whole)) {
     size = F(usub_axes_tangential3)(slip, n, v);
+  } else if (slip[0] == (R)0 && slip[1] == (R)0 && slip[2] == (R)0) {
+    size = (R)0; /* at rest: as common as motion, and nothing to scale */
   } else {
     e = F(usub_axes_exponent)(slip[0], slip[1], slip[2]);
     const R scaled[3] = {M(ldexp)(slip[0], -e), M(ldexp)(slip[1], -e), M(ldexp)(slip[2], -e)};

@@ -7,10 +7,6 @@
 
 #include "internal.h"
 
-static int32_t max_int(int32_t a, int32_t b) {
-  return a > b ? a : b;
-}
-
 /* Whether kind and interface go together. */
 static int fits(usub_kind_of_driver kind, const usub_interface *face) {
   if (kind == USUB_KIND_OF_COEFFICIENT)
@@ -97,6 +93,13 @@ static int32_t check_interface(const usub_driver *driver, usub_error *error) {
     return usub_error_set(error, USUB_NOT_SUPPORTED,
                           "VFRIC knows nodes only; scene setting 'contact' = 'edge-to-edge': use "
                           "VFRICTION");
+  if (set->skip_open && (driver->kind != USUB_KIND_OF_EXPLICIT || key == USUB_INTERFACE_VFRIC))
+    return usub_error_set(error, USUB_NOT_SUPPORTED,
+                          "scene setting 'skip_open' = %d is for VFRICTION and VFRIC_COEF in "
+                          "explicit hosts; %s %s",
+                          set->skip_open, driver->title,
+                          key == USUB_INTERFACE_VFRIC ? "is told of all points in one list"
+                                                      : "is not such a one");
   if (key == USUB_INTERFACE_VFRIC && set->states && !set->secondary_nodes)
     return usub_error_set(
         error, USUB_BAD_ARGUMENT,
@@ -172,24 +175,24 @@ static void set_name(char *to, const char *from) {
     to[i] = (char)toupper((unsigned char)from[i]);
 }
 
-static int32_t make_constants(usub_driver *driver) {
-  const usub_sizes *size = &driver->size;
-  const size_t ones = (size_t)max_int(max_int(size->N, size->X), 4);
-  const size_t numbers = (size_t)max_int(max_int(size->X, size->Y), 1);
-  driver->ones = malloc(ones * size->real);
-  driver->node_numbers = malloc(numbers * sizeof *driver->node_numbers);
-  if (!driver->ones || !driver->node_numbers)
-    return USUB_NO_MEMORY;
-  for (size_t i = 0; i < ones; ++i) {
-    if (driver->single)
-      ((float *)driver->ones)[i] = 1;
-    else
-      ((double *)driver->ones)[i] = 1;
+/* Whether the routine may write to the state in place, so that a failed step has to be undone. */
+static int writes_state(const usub_driver *driver) {
+  const usub_slot *state = usub_slot_find((usub_driver *)(uintptr_t)driver, "state");
+  if (!state || !state->count || driver->kind == USUB_KIND_OF_STANDARD)
+    return 0;
+  switch (usub_interface_key(driver->face)) {
+  case USUB_INTERFACE_VFRIC:
+    return usub_is_wanted(driver, USUB_VFRIC_STATEV);
+  case USUB_INTERFACE_VFRICTION:
+    return usub_is_wanted(driver, USUB_VFRICTION_STATE);
+  default:
+    return 1;
   }
-  for (size_t i = 0; i < numbers; ++i)
-    driver->node_numbers[i] = (int32_t)i + 1;
-  const usub_slot *state = usub_slot_find(driver, "state");
-  if (state && state->count && driver->kind != USUB_KIND_OF_STANDARD) {
+}
+
+static int32_t make_memory(usub_driver *driver) {
+  if (writes_state(driver)) {
+    const usub_slot *state = usub_slot_find(driver, "state");
     driver->state_bytes = state->count * state->element;
     driver->state_backup = malloc(driver->state_bytes);
     if (!driver->state_backup)
@@ -237,7 +240,7 @@ static int32_t fill_driver(usub_driver *driver, const usub_scene *scene, usub_er
   status = usub_slots_create(driver, error);
   if (status)
     return status;
-  if (make_constants(driver))
+  if (make_memory(driver))
     return usub_error_set(error, USUB_NO_MEMORY, "no memory for a driver of %d points",
                           driver->size.N);
   return USUB_OK;

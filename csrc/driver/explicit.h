@@ -5,6 +5,10 @@
 
 #include "internal.h"
 
+/** A loop that is compiled once for each set of constants that it is called with: one source, and a
+ * machine loop of its own for two and three dimensions, with and without enforcement. */
+#define USUB_SPECIALISED static inline __attribute__((always_inline))
+
 typedef struct usub_explicit_map {
   int32_t force, slip, previous, direction, state;
 } usub_explicit_map;

@@ -13,6 +13,44 @@ static const void *time_of(const usub_driver *driver, int32_t index) {
                         : (const void *)&driver->clock.time[index];
 }
 
+/* Ones for an array that the host does not bind, if the routine may read the argument made of it.
+ */
+static const void *ones_for(usub_driver *driver, int32_t position, const char *array,
+                            int32_t count) {
+  if (!usub_is_wanted(driver, position) || usub_data(driver, array) || driver->ones || !count)
+    return driver->ones;
+  const size_t n = (size_t)count;
+  driver->ones = malloc(n * driver->size.real);
+  driver->out_of_memory |= !driver->ones;
+  for (size_t i = 0; driver->ones && i < n; ++i) {
+    if (driver->single)
+      ((float *)driver->ones)[i] = 1;
+    else
+      ((double *)driver->ones)[i] = 1;
+  }
+  return driver->ones;
+}
+
+/* The shape function of a node: one. */
+static const void *one(const usub_driver *driver) {
+  static const double of_double = 1;
+  static const float of_float = 1;
+  return driver->single ? (const void *)&of_float : (const void *)&of_double;
+}
+
+/* Numbers 1, 2, ... of the nodes, in place of global ones, likewise. */
+static const void *numbers_for(usub_driver *driver, int32_t position, const char *array) {
+  const usub_sizes *size = &driver->size;
+  const int32_t most = size->X > size->Y ? size->X : size->Y;
+  if (!usub_is_wanted(driver, position) || usub_data(driver, array) || driver->node_numbers)
+    return driver->node_numbers;
+  driver->node_numbers = malloc(((size_t)most + 1) * sizeof *driver->node_numbers);
+  driver->out_of_memory |= !driver->node_numbers;
+  for (int32_t i = 0; driver->node_numbers && i <= most; ++i)
+    driver->node_numbers[i] = i + 1;
+  return driver->node_numbers;
+}
+
 /* A temperature or field array, or zeros where the scene has none. */
 static void put_optional(usub_driver *driver, int32_t position, const char *array, int32_t present,
                          const char *absent) {
@@ -91,8 +129,10 @@ static void plan_vfric(usub_driver *driver) {
     usub_put_array(driver, USUB_VFRIC_STATEV, "state", NULL);
   else
     usub_put_absent(driver, USUB_VFRIC_STATEV, 0, no_state);
-  usub_put_array(driver, USUB_VFRIC_JSECUID, "secondary_number", driver->node_numbers);
-  usub_put_array(driver, USUB_VFRIC_JMAINUID, "main_number", driver->node_numbers);
+  usub_put_array(driver, USUB_VFRIC_JSECUID, "secondary_number",
+                 numbers_for(driver, USUB_VFRIC_JSECUID, "secondary_number"));
+  usub_put_array(driver, USUB_VFRIC_JMAINUID, "main_number",
+                 numbers_for(driver, USUB_VFRIC_JMAINUID, "main_number"));
   usub_put_array(driver, USUB_VFRIC_JCONSECID, "secondary_node", NULL);
   if (size->M) {
     usub_put_array(driver, USUB_VFRIC_JCONMAINID, "main_node", NULL);
@@ -110,7 +150,8 @@ static void plan_vfric(usub_driver *driver) {
   usub_put_array(driver, USUB_VFRIC_COORDMAIN, "coord_main", NULL);
   usub_put_scratch(driver, USUB_VFRIC_DIRCOSSL, vector, 0, "computed", "direction of the slip");
   usub_put_array(driver, USUB_VFRIC_DIRCOSN, "normal", NULL);
-  usub_put_array(driver, USUB_VFRIC_AREASEC, "area", driver->ones);
+  usub_put_array(driver, USUB_VFRIC_AREASEC, "area",
+                 ones_for(driver, USUB_VFRIC_AREASEC, "area", size->X));
   const int32_t warm = driver->set.temperatures;
   put_optional(driver, USUB_VFRIC_TEMPSEC, "temperature_secondary", warm, no_temperatures);
   put_optional(driver, USUB_VFRIC_TEMPMAIN, "temperature_main", warm, no_temperatures);
@@ -179,15 +220,16 @@ static void plan_vfriction(usub_driver *driver) {
   usub_put_scratch(driver, USUB_VFRICTION_FTANGPREV, vector, 0, "computed",
                    "rotated to the local axes");
   usub_put_array(driver, USUB_VFRICTION_FNORMAL, "normal_force", NULL);
-  usub_put_array(driver, USUB_VFRICTION_AREACONT, "area", driver->ones);
+  usub_put_array(driver, USUB_VFRICTION_AREACONT, "area",
+                 ones_for(driver, USUB_VFRICTION_AREACONT, "area", driver->block));
   usub_put_array(driver, USUB_VFRICTION_DIRCOSN, "normal", NULL);
   usub_put_scratch(driver, USUB_VFRICTION_DIRCOSSL, vector, 0, "computed", "direction of the slip");
   if (driver->edges)
     usub_put_array(driver, USUB_VFRICTION_SHAPESEC, "shape_secondary", NULL);
   else
-    usub_put_fixed(driver, USUB_VFRICTION_SHAPESEC, driver->ones);
+    usub_put_fixed(driver, USUB_VFRICTION_SHAPESEC, one(driver));
   usub_put_array(driver, USUB_VFRICTION_SHAPEMAIN, "shape_main",
-                 driver->analytical ? driver->ones : NULL);
+                 driver->analytical ? one(driver) : NULL);
   put_nodal(driver, USUB_VFRICTION_COORDSEC, "coord", "secondary_node", size->B);
   put_nodal(driver, USUB_VFRICTION_COORDMAIN, "coord", "main_node", size->M);
   put_nodal(driver, USUB_VFRICTION_VELSEC, "velocity", "secondary_node", size->B);
@@ -265,6 +307,31 @@ static void check_own_needs(usub_driver *driver) {
              "%s: array '%s' is not bound; the driver needs it to %s", driver->title, lacking, why);
 }
 
+/* Whether an argument is made of the host's arrays and not left out. */
+static int is_passed(const usub_driver *driver, int32_t position) {
+  const usub_source *source = &driver->sources[position];
+  return source->from == USUB_SCRATCH || (source->from != USUB_LEFT_OUT && source->slot);
+}
+
+/* Node numbers that nobody uses are not looked at: those that lead to memory of the driver or the
+ * host, and those that the routine is told, have to be right. */
+static void find_nodes_that_matter(usub_driver *driver) {
+  if (usub_is_vfric(driver)) {
+    driver->secondary_matters = 1; /* of forces and state variables */
+    driver->main_matters = driver->scatters || is_passed(driver, USUB_VFRIC_JCONMAINID);
+    return;
+  }
+  driver->secondary_matters = driver->main_matters = driver->scatters;
+  if (usub_is_coefficient(driver))
+    return;
+  driver->secondary_matters |= is_passed(driver, USUB_VFRICTION_JCONSECUID) ||
+                               is_passed(driver, USUB_VFRICTION_COORDSEC) ||
+                               is_passed(driver, USUB_VFRICTION_VELSEC);
+  driver->main_matters |= is_passed(driver, USUB_VFRICTION_JCONMAINUID) ||
+                          is_passed(driver, USUB_VFRICTION_COORDMAIN) ||
+                          is_passed(driver, USUB_VFRICTION_VELMAIN);
+}
+
 void usub_explicit_plan(usub_driver *driver) {
   if (usub_is_coefficient(driver))
     plan_vfric_coef(driver);
@@ -273,10 +340,21 @@ void usub_explicit_plan(usub_driver *driver) {
   else
     plan_vfriction(driver);
   check_own_needs(driver);
+  find_nodes_that_matter(driver);
   const int wanted = driver->enforcement == USUB_ENFORCE_PENALTY ||
                      usub_is_live(driver, usub_explicit_positions(driver).previous);
   driver->keeps_force =
       !usub_is_coefficient(driver) && wanted && !usub_data(driver, "previous_force");
+}
+
+size_t usub_axes_bytes(const usub_driver *driver, size_t points) {
+  if (driver->kind != USUB_KIND_OF_EXPLICIT)
+    return 0;
+  /* Where the routine reads the directions, its argument holds them; packing would take them. */
+  if (!usub_is_coefficient(driver) && !driver->set.skip_open &&
+      usub_is_live(driver, usub_explicit_positions(driver).direction))
+    return 0;
+  return points * (size_t)driver->size.D * driver->size.real;
 }
 
 size_t usub_force_bytes(const usub_driver *driver) {

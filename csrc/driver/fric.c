@@ -11,18 +11,18 @@ static void empty(usub_driver *driver, const usub_call *call, int32_t position) 
 }
 
 /* What the routine continues from. */
-static void fill_answers(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
-                         int32_t first) {
+static void fill_answer(usub_driver *driver, const usub_point_arrays *at, int32_t p) {
   const usub_iteration *last = &driver->last;
-  const size_t F = (size_t)driver->size.F;
-  for (int32_t p = first; p < first + call->n; ++p) {
-    const size_t i = (size_t)p;
-    at->lm[i] = usub_lm_on_entry(driver, at, p);
-    memcpy(at->tau + i * F, at->committed_tau + i * F, F * sizeof(double));
-    at->sed[i] = at->committed_sed[i];
-    if (last->done && last->closed[p] && at->lm[i] == USUB_SLIPPING)
-      memcpy(at->dslip + i * F, last->dslip + i * F, F * sizeof(double));
-  }
+  const size_t F = (size_t)driver->size.F, i = (size_t)p;
+  at->lm[i] = usub_lm_on_entry(driver, at, p);
+  memcpy(at->tau + i * F, at->committed_tau + i * F, F * sizeof(double));
+  at->sed[i] = at->committed_sed[i];
+  if (last->done && last->closed[p] && at->lm[i] == USUB_SLIPPING)
+    memcpy(at->dslip + i * F, last->dslip + i * F, F * sizeof(double));
+}
+
+void usub_fric_fill(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
+                    int32_t first) {
   /* Tangents that the host wants were cleared with the point. */
   empty(driver, call, USUB_FRIC_DDTDDG);
   empty(driver, call, USUB_FRIC_DDTDDP);
@@ -30,11 +30,6 @@ static void fill_answers(usub_driver *driver, const usub_call *call, const usub_
   if (usub_is_live(driver, USUB_FRIC_PNEWDT))
     for (int32_t k = 0; k < call->n; ++k)
       ((double *)call->argv[USUB_FRIC_PNEWDT])[k] = USUB_PNEWDT_PRESET;
-}
-
-/* What the routine is told and the host has in another form. */
-static void fill_points(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
-                        int32_t first) {
   const size_t F = (size_t)driver->size.F, P = (size_t)driver->size.P;
   const size_t n = (size_t)call->n, i = (size_t)first;
   if (usub_is_live(driver, USUB_FRIC_TAULM)) {
@@ -65,9 +60,8 @@ static void fill_points(usub_driver *driver, const usub_call *call, const usub_p
   }
 }
 
-/* A point that the host constrains (1) or leaves alone (2): nothing else of the answer counts. */
-static int32_t take_constraint(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                               int32_t index, int32_t p) {
+int32_t usub_fric_constrain(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                            int32_t index, int32_t p) {
   const size_t F = (size_t)driver->size.F, i = (size_t)p;
   const int sticks = at->lm[i] == USUB_STICKING;
   const double *from = at->multiplier ? at->multiplier + i * F : at->committed_tau + i * F;
@@ -108,7 +102,7 @@ static int32_t take_answer(usub_driver *driver, usub_call *call, const usub_poin
   }
   const int32_t status =
       lm == 0 ? usub_check_answers(driver, call, at, index, p, "the routine returned")
-              : take_constraint(driver, call, at, index, p);
+              : usub_fric_constrain(driver, call, at, index, p);
   return status ? status : usub_check_trial_state(driver, call, index, p);
 }
 
@@ -116,32 +110,35 @@ int32_t usub_fric_take(usub_driver *driver, usub_call *call, const usub_point_ar
                        int32_t index, int32_t first, int32_t count) {
   int32_t status = USUB_OK;
   for (int32_t k = 0; k < count && !status; ++k)
-    status = take_answer(driver, call, at, index, first + k, k);
+    if (driver->last.trial_closed[first + k])
+      status = take_answer(driver, call, at, index, first + k, k);
   return status;
 }
 
-int32_t usub_fric_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                         int32_t index, int32_t first, int32_t *count) {
-  usub_aim(driver, call, first, *count);
-  fill_answers(driver, call, at, first);
-  fill_points(driver, call, at, first);
-  if (!usub_inputs_are_finite(driver, call)) {
-    *count = 1; /* one by one: points before the one that is refused may fail first */
-    usub_aim(driver, call, first, 1);
-    const int32_t status = usub_check_inputs(driver, call, index, first);
-    if (status)
-      return status;
-  }
-  const int32_t ended = usub_call_routine(driver, call);
-  const int32_t done = call->done;
-  call->done = 0; /* what happens from here on does not happen in the routine */
-  const int32_t status = usub_fric_take(driver, call, at, index, first, ended < 0 ? done : call->n);
-  if (status || ended >= 0)
+int32_t usub_fric_ended(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                        int32_t index, int32_t first, int32_t ended, const char *reason) {
+  const int32_t done = call->before + call->done;
+  call->done = call->before = 0; /* what happens from here on does not happen in the routine */
+  int32_t status = usub_fric_take(driver, call, at, index, first, done);
+  if (!status)
+    status = usub_checked_fail(driver, call, index, first + done, ended);
+  return status ? status
+                : usub_block_fail(driver, call, index, first + done, ended,
+                                  "%s: the routine ended with %s at point %d", driver->title,
+                                  reason, first + done);
+}
+
+int32_t usub_fric_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                        int32_t index, int32_t p) {
+  usub_aim(driver, call, p, 1);
+  fill_answer(driver, at, p);
+  usub_fric_fill(driver, call, at, p);
+  const int32_t status = usub_check_inputs(driver, call, index, p);
+  if (status)
     return status;
-  const int32_t seen = usub_checked_fail(driver, call, index, first + done, ended);
-  if (seen)
-    return seen;
-  return usub_block_fail(
-      driver, call, index, first + done, ended, "FRIC: the routine ended with %s at point %d",
-      ended == USUB_ROUTINE_RAISED ? "an exception" : "its status", first + done);
+  const int32_t ended = usub_call_routine(driver, call);
+  if (ended < 0)
+    return usub_fric_ended(driver, call, at, index, p, ended, usub_failure(ended));
+  call->done = 0;
+  return usub_fric_take(driver, call, at, index, p, 1);
 }

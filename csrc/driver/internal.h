@@ -23,6 +23,9 @@
 #define USUB_MAX_ARGS 42
 #define USUB_MAX_SLOTS 40
 #define USUB_TEXT_LENGTH 81
+/** Points of FRIC that are treated together: enough to forget what is done once, few enough for the
+ * nearest cache. */
+#define USUB_LONGEST_RUN 128
 /** Seconds that the routine of a checked driver has for one call. */
 #define USUB_TIME_LIMIT 2.0
 
@@ -142,11 +145,17 @@ typedef struct usub_source {
 /** Arguments and scratch of one worker. */
 typedef struct usub_call {
   void *argv[USUB_MAX_ARGS];
-  int32_t n;     /* contact points of the call */
-  int32_t done;  /* of these, points that a routine of style POINTS is through with */
-  char *scratch; /* one allocation; the sources' shares, then `axes` */
-  void *axes;    /* local direction 1 of the points of a block */
-  double pnewdt; /* smallest of this worker */
+  int32_t n;      /* contact points of the call */
+  int32_t done;   /* of these, points that a routine of style POINTS is through with, */
+  int32_t before; /* besides those of earlier calls for the same points */
+  char *scratch;  /* one allocation; the sources' shares, then `axes` */
+  void *axes;     /* local direction 1 of the points of a block; NULL where the routine reads it */
+  /* Blocks without their open points: which are closed, where their slices are moved to, and how
+   * many points the block has while the call is for fewer (0: it is for all). */
+  int32_t *closed;
+  void *packed[USUB_MAX_ARGS];
+  int32_t all;
+  double pnewdt;                /* smallest of this worker */
   struct usub_checker *checker; /* of a checked driver (csrc/checked) */
   /* the failure of this worker in its lowest block */
   int32_t failed_block, failed_point, status;
@@ -217,8 +226,9 @@ struct usub_driver {
   int32_t prop_count;
   char *props_pages;
   size_t props_bytes;
-  void *ones;            /* reals: areas, shape functions of nodes */
-  int32_t *node_numbers; /* 1, 2, ...: global numbers where the host gives none */
+  void *ones;            /* areas where the host gives none and the routine reads them */
+  int32_t *node_numbers; /* 1, 2, ...: global numbers likewise */
+  int32_t out_of_memory; /* of the plan */
   /* Read-only zeros for arguments that are left out, `nothing_place` bytes for each. */
   char *nothing;
   size_t nothing_place;
@@ -228,6 +238,7 @@ struct usub_driver {
   /* explicit */
   void *last_force; /* kept where the routine reads the previous force; by column (explicit.h) */
   int32_t keeps_force, scatters;
+  int32_t secondary_matters, main_matters; /* somebody uses the node numbers of that side */
   double dissipation;
   /* where it enforces sticking: what the increment leaves if it succeeds; NULL where not wanted */
   int32_t *trial_condition;
@@ -281,6 +292,8 @@ static inline int32_t usub_first_bad_of_few(const double *data, int32_t n) {
 /* plan.c */
 /** Whether the routine uses the argument: 1, 0, or -1 if nobody knows. */
 int32_t usub_used(const usub_driver *driver, int32_t position);
+/** Whether it is passed: it is used, perhaps, or everything is passed. */
+int usub_is_wanted(const usub_driver *driver, int32_t position);
 /** The same number for all points of all blocks. */
 void usub_put_fixed(usub_driver *driver, int32_t position, const void *data);
 /** The number of contact points of the block. */
@@ -313,6 +326,17 @@ void usub_calls_free(usub_driver *driver);
 /** Sets the slices of a block of `n` points from `first`. */
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n);
 
+/* open_points.c */
+/** Leaves the open points of a block out of its arguments. Returns how many are closed: points of
+ * `call` from now on. */
+int32_t usub_leave_open_out(const usub_driver *driver, usub_call *call, int32_t first);
+/** Gives the answers of such a call back to their points; open ones get zero. */
+void usub_take_open_back(const usub_driver *driver, usub_call *call, int32_t first);
+/** Which point of the block the k-th of the call is. */
+static inline int32_t usub_point_at(const usub_call *call, int32_t k) {
+  return call->all ? call->closed[k] : k;
+}
+
 /* inputs.c */
 /** Lists the arrays that are looked at: inputs of the routine and what forces are spread with. */
 void usub_list_inputs(usub_driver *driver);
@@ -338,6 +362,9 @@ void usub_props_free(usub_driver *driver);
 int32_t usub_call_routine(const usub_driver *driver, usub_call *call);
 /** Calls its entry with `argv`, whatever kind of driver it is. */
 int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv);
+/** FRIC: calls it for those of the points of `call` that are closed; `before` and `done` tell how
+ * far it has come. */
+int32_t usub_call_closed(const usub_driver *driver, usub_call *call, const unsigned char *closed);
 /** The same under a guard; says in `reason` why it ended, if it did. */
 int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
 /** Records that the routine did not return as it should in the block that `call` aims at. */
@@ -382,6 +409,8 @@ int32_t usub_standard_block(usub_driver *driver, usub_call *call, int32_t index)
 void usub_explicit_plan(usub_driver *driver);
 /** Memory of the previous force, if the plan wants it. */
 int32_t usub_explicit_memory(usub_driver *driver);
+/** Bytes of local directions that a worker needs for `points` points besides its arguments. */
+size_t usub_axes_bytes(const usub_driver *driver, size_t points);
 size_t usub_force_bytes(const usub_driver *driver);
 /* explicit_enforcement.c */
 usub_enforcement usub_explicit_enforcement(const usub_driver *driver);

@@ -12,6 +12,8 @@
 /* Bisection, which is a third of the trials, needs 53 halvings at most: this is not reached. */
 #define MOST_TRIALS 240
 #define FIXED_POINT_TRIALS 8
+/* An elastic slip that was left at the critical one is rounded: at rest it must not slip again. */
+#define ROUNDED (1.0 + 4.0 * DBL_EPSILON)
 
 /* What fraction of the predictor is plastic, and the stress a_i force (a_i g_i / size) of it. */
 typedef struct solution {
@@ -33,7 +35,7 @@ static double critical_of(const usub_trial *trial) {
 /* The fraction that the coefficients of the last question make plastic. */
 static double made_plastic(const usub_trial *trial) {
   const double critical = critical_of(trial);
-  return trial->scaled > critical ? (trial->scaled - critical) / trial->scaled : 0.0;
+  return trial->scaled > critical * ROUNDED ? (trial->scaled - critical) / trial->scaled : 0.0;
 }
 
 /* Takes `fraction`; what remains elastic is told by the coefficients if they agree with it. */
@@ -122,8 +124,11 @@ static void find_force(solution *s) {
   s->slips = s->fraction > 0.0 && trial->scaled > 0.0;
   s->softened = !s->slips && trial->input->stick_slope > 0.0;
   s->force = s->softened && trial->strength > 0.0 ? trial->input->stick_slope : trial->strength;
-  s->size = s->slips ? trial->scaled : s->critical;
-  if (s->softened || !(s->size > 0.0)) {
+  const int32_t at_limit = s->critical > 0.0 && trial->scaled > s->critical;
+  s->size = s->slips || at_limit ? trial->scaled : s->critical;
+  if (s->softened && at_limit) {
+    s->force = trial->strength;
+  } else if (s->softened || !(s->size > 0.0)) {
     s->size = 1.0;
   }
 }

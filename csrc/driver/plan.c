@@ -17,9 +17,6 @@
 #define MOST_NOTHING ((size_t)1 << 28)
 #define ALIGNMENT 64
 
-/* Points of a call of style POINTS: enough to forget the call, few enough for the nearest cache. */
-#define LONGEST_RUN 64
-
 int32_t usub_used(const usub_driver *driver, int32_t position) {
   if (!driver->routine.uses_known)
     return -1;
@@ -27,7 +24,7 @@ int32_t usub_used(const usub_driver *driver, int32_t position) {
 }
 
 /* The first argument is what an interface is for: the driver reads it whatever the routine does. */
-static int is_wanted(const usub_driver *driver, int32_t position) {
+int usub_is_wanted(const usub_driver *driver, int32_t position) {
   return position == 0 || driver->set.pass_everything || usub_used(driver, position) != 0;
 }
 
@@ -36,7 +33,7 @@ static usub_source *put(usub_driver *driver, int32_t position, usub_from from, s
   memset(source, 0, sizeof *source);
   source->used = usub_used(driver, position);
   source->bytes_full = (int32_t)bytes;
-  if (is_wanted(driver, position)) {
+  if (usub_is_wanted(driver, position)) {
     source->from = from;
     source->bytes = (int32_t)bytes;
   } else {
@@ -151,9 +148,9 @@ void usub_put_pair(usub_driver *driver, int32_t position, const char *quantity, 
 int32_t usub_points_a_call(const usub_driver *driver) {
   if (driver->kind != USUB_KIND_OF_STANDARD)
     return driver->block;
-  if (driver->routine.style != USUB_STYLE_POINTS || driver->checked)
+  if (usub_interface_key(driver->face) != USUB_INTERFACE_FRIC || driver->checked)
     return 1;
-  return driver->block < LONGEST_RUN ? driver->block : LONGEST_RUN;
+  return driver->block < USUB_LONGEST_RUN ? driver->block : USUB_LONGEST_RUN;
 }
 
 int usub_is_live(const usub_driver *driver, int32_t position) {
@@ -174,33 +171,54 @@ void usub_calls_free(usub_driver *driver) {
   driver->calls = NULL;
 }
 
-/* One allocation of scratch for each worker, shared out to the arguments. */
-static int32_t make_calls(usub_driver *driver) {
-  usub_calls_free(driver);
-  const size_t block = (size_t)usub_points_a_call(driver);
-  size_t total = ALIGNMENT + rounded(block * 3 * driver->size.real);
+/* Bytes of an argument that a block without its open points needs besides. */
+static size_t packed_bytes(const usub_driver *driver, const usub_source *source, size_t block) {
+  const int is_packed = driver->set.skip_open && source->from == USUB_SLICE;
+  return is_packed ? rounded(block * source->per_point) : 0;
+}
+
+static size_t scratch_bytes(const usub_driver *driver, size_t block) {
+  size_t total = ALIGNMENT + rounded(usub_axes_bytes(driver, block));
+  if (driver->set.skip_open)
+    total += rounded(block * sizeof(int32_t));
   for (int32_t i = 0; i < driver->face->count; ++i) {
     const usub_source *source = &driver->sources[i];
     if (source->from == USUB_SCRATCH)
       total += rounded(block * source->per_point + source->extra);
+    total += packed_bytes(driver, source, block);
   }
+  return rounded(total);
+}
+
+/* Takes `bytes` of a worker's scratch, NULL for none. */
+static void *take(char **at, size_t bytes) {
+  char *taken = *at;
+  *at += rounded(bytes);
+  return bytes ? taken : NULL;
+}
+
+/* One allocation of scratch for each worker, shared out to the arguments. */
+static int32_t make_calls(usub_driver *driver) {
+  usub_calls_free(driver);
+  const size_t block = (size_t)usub_points_a_call(driver);
+  const size_t total = scratch_bytes(driver, block);
   driver->calls = calloc((size_t)driver->threads, sizeof *driver->calls);
   if (!driver->calls)
     return usub_fail(driver, USUB_NO_MEMORY, "no memory for the workers");
   for (int32_t w = 0; w < driver->threads; ++w) {
     usub_call *call = &driver->calls[w];
-    call->scratch = aligned_alloc(ALIGNMENT, rounded(total));
-    if (!call->scratch)
+    char *at = call->scratch = aligned_alloc(ALIGNMENT, total);
+    if (!at)
       return usub_fail(driver, USUB_NO_MEMORY, "no memory for scratch of %zu bytes", total);
-    memset(call->scratch, 0, rounded(total));
-    call->axes = call->scratch;
-    char *at = call->scratch + rounded(block * 3 * driver->size.real);
+    memset(at, 0, total);
+    call->axes = take(&at, usub_axes_bytes(driver, block));
+    call->closed = take(&at, driver->set.skip_open ? block * sizeof(int32_t) : 0);
     for (int32_t i = 0; i < driver->face->count; ++i) {
       const usub_source *source = &driver->sources[i];
-      if (source->from != USUB_SCRATCH)
-        continue;
-      call->argv[i] = at;
-      at += rounded(block * source->per_point + source->extra);
+      if (source->from == USUB_SCRATCH)
+        call->packed[i] = call->argv[i] = take(&at, block * source->per_point + source->extra);
+      else
+        call->packed[i] = take(&at, packed_bytes(driver, source, block));
     }
   }
   return USUB_OK;
@@ -231,7 +249,8 @@ static void aim_fixed(usub_driver *driver) {
 
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n) {
   call->n = n;
-  call->done = 0;
+  call->done = call->before = 0;
+  call->all = 0;
   for (int32_t m = 0; m < driver->moving_count; ++m) {
     const usub_source *source = &driver->sources[driver->moving[m]];
     const void *base = source->slot ? source->slot->data : source->data;
@@ -282,6 +301,7 @@ static void make_plan(usub_driver *driver) {
   if (!driver->nothing)
     make_nothing(driver);
   driver->missing[0] = 0;
+  driver->out_of_memory = 0;
   if (driver->kind == USUB_KIND_OF_STANDARD)
     usub_standard_plan(driver);
   else if (driver->kind == USUB_KIND_OF_EXPLICIT)
@@ -298,6 +318,8 @@ int32_t usub_prepare(usub_driver *driver) {
     make_plan(driver);
     if (!driver->nothing)
       return usub_fail(driver, USUB_NO_MEMORY, "no memory for left-out arguments");
+    if (driver->out_of_memory)
+      return usub_fail(driver, USUB_NO_MEMORY, "no memory for what the host does not bind");
     if (driver->missing[0])
       return usub_fail(driver, USUB_MISSING_ARRAY, "%s", driver->missing);
     status = make_calls(driver);

@@ -53,6 +53,45 @@ int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv)
   return USUB_OK;
 }
 
+/* Arguments that move from point to point. */
+static int32_t list_moving(const usub_driver *driver, int32_t moving[USUB_MAX_ARGS]) {
+  int32_t count = 0;
+  for (int32_t i = 0; i < driver->face->count; ++i)
+    if (driver->stride[i])
+      moving[count++] = i;
+  return count;
+}
+
+int32_t usub_call_closed(const usub_driver *driver, usub_call *call, const unsigned char *closed) {
+  const int runs = driver->routine.style == USUB_STYLE_POINTS;
+  int32_t moving[USUB_MAX_ARGS];
+  const int32_t moving_count = list_moving(driver, moving), n = call->n;
+  void *argv[USUB_MAX_ARGS];
+  memcpy(argv, call->argv, (size_t)driver->face->count * sizeof *argv);
+  for (int32_t k = 0, end; k < n; k = end) {
+    end = k + 1;
+    if (!closed[k])
+      continue;
+    while (runs && end < n && closed[end])
+      ++end;
+    for (int32_t m = 0; m < moving_count; ++m) {
+      const int32_t i = moving[m];
+      argv[i] = (char *)call->argv[i] + k * driver->stride[i];
+    }
+    call->before = k;
+    int32_t status = USUB_OK;
+    if (driver->routine.style == USUB_STYLE_FULL)
+      usub_call_fric_d(driver->routine.entry, argv);
+    else if (runs)
+      status = ((points_style)driver->routine.entry)(argv, driver->stride, end - k, &call->done);
+    else
+      status = usub_call_entry(driver, call, argv);
+    if (status < 0)
+      return status;
+  }
+  return USUB_OK;
+}
+
 /* Says which property was meant, if a fault lies behind the last one. */
 static int is_behind_props(const usub_driver *driver, uintptr_t fault, char reason[256]) {
   const uintptr_t first = (uintptr_t)driver->props;
@@ -105,13 +144,15 @@ int32_t usub_ended(usub_driver *driver, usub_call *call, int32_t index, int32_t 
     return usub_block_fail(driver, call, index, -1, status,
                            "%s: the routine ended with %s in a call without points", driver->title,
                            reason);
+  const int32_t last = first + usub_point_at(call, call->n - 1);
+  first += usub_point_at(call, 0);
   if (call->n == 1)
     return usub_block_fail(driver, call, index, first, status,
                            "%s: the routine ended with %s at point %d", driver->title, reason,
                            first);
   return usub_block_fail(driver, call, index, -1, status,
                          "%s: the routine ended with %s in points %d to %d", driver->title, reason,
-                         first, first + call->n - 1);
+                         first, last);
 }
 
 usub_block_fn usub_block_of(const usub_driver *driver) {

@@ -19,9 +19,10 @@ int32_t usub_standard_create(usub_driver *driver) {
   last->tau = calloc(N * F, sizeof(double));
   last->sed = calloc(N, sizeof(double));
   last->pressure = calloc(N, sizeof(double));
-  last->trial_state = calloc(N * (S > 0 ? S : 1), sizeof(double));
+  if (S)
+    last->trial_state = calloc(N * S, sizeof(double));
   if (!last->lm || !last->closed || !last->trial_closed || !last->dslip || !last->tau ||
-      !last->sed || !last->pressure || !last->trial_state)
+      !last->sed || !last->pressure || (S && !last->trial_state))
     return USUB_NO_MEMORY;
   if (!usub_is_fric(driver)) {
     last->trial_elastic = calloc(N * F, sizeof(double));
@@ -118,10 +119,6 @@ static void reset_point(usub_driver *driver, const usub_point_arrays *at, int32_
     memcpy(driver->last.trial_state + i * S, at->state + i * S, S * sizeof(double));
 }
 
-static int is_closed(const usub_point_arrays *at, int32_t p) {
-  return at->closed ? at->closed[p] != 0 : at->pressure[p] > 0;
-}
-
 /* Refuses NaN and infinity. */
 static int32_t look_at_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
                              int32_t index, int32_t p) {
@@ -140,36 +137,22 @@ static int32_t look_at_point(usub_driver *driver, usub_call *call, const usub_po
   return USUB_OK;
 }
 
-/* Whether the point can go to the routine together with the one before it. */
-static int can_follow(const usub_driver *driver, const usub_point_arrays *at, int32_t p) {
-  const double pressure = at->pressure[p];
-  const double *slip = at->slip_increment + (size_t)p * (size_t)driver->size.F;
-  return pressure - pressure == 0 && usub_first_bad_of_few(slip, driver->size.F) < 0 &&
-         is_closed(at, p);
-}
-
-/* Point `p`, and where the routine takes several at once, closed ones behind it: `most` in all. */
-static int32_t run_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                          int32_t index, int32_t p, int32_t most, int32_t *count) {
-  *count = 1;
+/* Point `p`. */
+static int32_t run_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                         int32_t index, int32_t p) {
   const int32_t status = look_at_point(driver, call, at, index, p);
   if (status)
     return status;
   reset_point(driver, at, p);
-  driver->last.trial_closed[p] = (unsigned char)is_closed(at, p);
+  driver->last.trial_closed[p] = (unsigned char)usub_is_closed(at, p);
   if (!driver->last.trial_closed[p]) {
     at->lm[p] = USUB_OPEN;
     if (!usub_is_fric(driver))
       usub_fric_coef_open_point(driver, at, p);
     return USUB_OK;
   }
-  if (!usub_is_fric(driver))
-    return usub_fric_coef_point(driver, call, at, index, p);
-  for (; *count < most && can_follow(driver, at, p + *count); ++*count) {
-    reset_point(driver, at, p + *count);
-    driver->last.trial_closed[p + *count] = 1;
-  }
-  return usub_fric_points(driver, call, at, index, p, count);
+  return usub_is_fric(driver) ? usub_fric_point(driver, call, at, index, p)
+                              : usub_fric_coef_point(driver, call, at, index, p);
 }
 
 int32_t usub_check_answers(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
@@ -200,6 +183,8 @@ int32_t usub_check_answers(usub_driver *driver, usub_call *call, const usub_poin
 
 int32_t usub_check_trial_state(usub_driver *driver, usub_call *call, int32_t index, int32_t p) {
   const int32_t S = driver->size.S;
+  if (!S)
+    return USUB_OK;
   const double *state = driver->last.trial_state + (size_t)p * (size_t)S;
   const int32_t bad = usub_first_bad_of_few(state, S);
   if (bad < 0)
@@ -209,6 +194,30 @@ int32_t usub_check_trial_state(usub_driver *driver, usub_call *call, int32_t ind
                          bad + 1, state[bad], p);
 }
 
+/* Points from *p to `last`, where *p always is the first of the call that is going on. */
+static int32_t run_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                          int32_t index, volatile int32_t *p, int32_t last) {
+  const int32_t most = usub_points_a_call(driver);
+  for (int32_t status = USUB_OK; *p < last;) {
+    const int32_t left = last - *p, count = left < most ? left : most;
+    if (most > 1) {
+      status = usub_fric_together(driver, call, at, index, *p, count);
+      if (status != USUB_ONE_BY_ONE) {
+        if (status < 0)
+          return status;
+        *p += count;
+        continue;
+      }
+    }
+    for (const int32_t end = *p + count; *p < end; ++*p) {
+      status = run_point(driver, call, at, index, *p);
+      if (status < 0)
+        return status;
+    }
+  }
+  return USUB_OK;
+}
+
 /* One guard for all points of the block: arming it costs as much as a cheap routine. */
 __attribute__((noinline)) int32_t usub_standard_block(usub_driver *driver, usub_call *call,
                                                       int32_t index) {
@@ -216,26 +225,16 @@ __attribute__((noinline)) int32_t usub_standard_block(usub_driver *driver, usub_
   const usub_point_arrays at = usub_point_arrays_of(driver);
   const int32_t first = index * driver->block, rest = driver->points - first;
   const int32_t last = first + (rest < driver->block ? rest : driver->block);
-  const int32_t most = usub_points_a_call(driver);
   volatile int32_t p = first;
   volatile int32_t status = USUB_OK;
   usub_guard guard;
   usub_guard_push(&guard);
   if (sigsetjmp(guard.env, 0) == 0) {
-    for (int32_t count = 1; p < last && status >= 0; p = p + count) {
-      const int32_t left = last - p;
-      status = run_points(driver, call, &at, index, p, left < most ? left : most, &count);
-    }
+    status = run_points(driver, call, &at, index, &p, last);
   } else {
-    const int32_t done = call->done, ended = p + done;
     char reason[256];
-    call->done = 0;
     usub_explain(driver, &guard, reason);
-    status = usub_fric_take(driver, call, &at, index, p, done);
-    if (!status)
-      status = usub_block_fail(driver, call, index, ended, guard.status,
-                               "%s: the routine ended with %s at point %d", driver->title, reason,
-                               ended);
+    status = usub_fric_ended(driver, call, &at, index, p, guard.status, reason);
   }
   usub_guard_pop(&guard);
   return status;

@@ -3,6 +3,8 @@
 #ifndef USERSUB_STANDARD_H
 #define USERSUB_STANDARD_H
 
+#include <string.h>
+
 #include "internal.h"
 
 /** PNEWDT on entry: a large number that no routine means. */
@@ -33,14 +35,52 @@ static inline int usub_is_fric(const usub_driver *driver) {
 
 /* fric_plan.c, fric.c */
 void usub_fric_plan(usub_driver *driver);
-/** Closed points `first` to `first + *count - 1` by one call of the routine; *count becomes 1 if it
- * was for the first of them only. */
-int32_t usub_fric_points(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
-                         int32_t index, int32_t first, int32_t *count);
-/** Takes what the routine answered for the first `count` points of the call that began at `first`.
- */
+/** The closed point `p`. */
+int32_t usub_fric_point(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                        int32_t index, int32_t p);
+/** What the routine is told and the host has in another form, for the points of `call`. */
+void usub_fric_fill(usub_driver *driver, const usub_call *call, const usub_point_arrays *at,
+                    int32_t first);
+/** Takes what the routine answered for the closed ones of `count` points from `first`, where the
+ * call began. */
 int32_t usub_fric_take(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
                        int32_t index, int32_t first, int32_t count);
+/** Says why a call for points from `first` ended, after what was answered before is taken. */
+int32_t usub_fric_ended(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                        int32_t index, int32_t first, int32_t status, const char *reason);
+/** A point that the host constrains (1) or leaves alone (2): nothing else of the answer counts. */
+int32_t usub_fric_constrain(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                            int32_t index, int32_t p);
+
+/** Numbers of the points that are wanted (1), zero for the others (0), `F` a point, which has to be
+ * a constant to the compiler. Without branches: which points are wanted cannot be foreseen. */
+static inline __attribute__((always_inline)) void
+usub_choose(size_t n, size_t F, double *restrict to, const double *restrict from,
+            const unsigned char *restrict wanted) {
+  for (size_t k = 0; k < n; ++k)
+    for (size_t a = k * F; a < (k + 1) * F; ++a) {
+      uint64_t bits;
+      memcpy(&bits, from + a, sizeof bits);
+      bits &= -(uint64_t)wanted[k];
+      memcpy(to + a, &bits, sizeof bits);
+    }
+}
+
+/** In words: a routine said so itself. */
+static inline const char *usub_failure(int32_t status) {
+  return status == USUB_ROUTINE_RAISED ? "an exception" : "its status";
+}
+
+/* fric_together.c */
+/** Points `first` to `first + n - 1`, open and closed.
+ * @return status; USUB_ONE_BY_ONE, with nothing done, if there is something to refuse. */
+int32_t usub_fric_together(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
+                           int32_t index, int32_t first, int32_t n);
+enum { USUB_ONE_BY_ONE = 1000 };
+/** Whether the host has the point in contact. */
+static inline int usub_is_closed(const usub_point_arrays *at, int32_t p) {
+  return at->closed ? at->closed[p] != 0 : at->pressure[p] > 0;
+}
 
 /* fric_coef_point.c */
 void usub_fric_coef_plan(usub_driver *driver);

@@ -83,6 +83,10 @@ static void take_value(usub_trial *trial) {
   }
   /* The strength is min(m p, limit); a product that overflows is above any limit. */
   trial->strength = in->pressure > 0.0 ? trial->mean * in->pressure : 0.0;
+  /* An elastic slip below the smallest normal number has no digits: it carries nothing. */
+  if (in->stick_slope > 0.0 && trial->strength < in->stick_slope * DBL_MIN) {
+    trial->strength = 0.0;
+  }
   trial->on_coefficient = in->pressure >= 0.0;
   if (in->shear_limit > 0.0 && trial->strength > in->shear_limit) {
     trial->strength = in->shear_limit;

@@ -5,6 +5,7 @@
 #define USUB_LAW_VECTORS 1
 #define USUB_LAW_READS_PRESSURE
 #include <usersub/bristle_law.h>
+#include <usersub/law_functions.h>
 
 USUB_BRISTLE_FUNCTION {
   const usub_real strength = props[0] * pressure, stiffness = props[1];
@@ -12,7 +13,7 @@ USUB_BRISTLE_FUNCTION {
   usub_real *z = vectors[0], along[2] = {0, 0};
   for (int a = 0; a < 2 && length > 0; ++a)
     along[a] = motion[a] / length;
-  if (!(strength > 0)) { /* no traction, but it grows with the pressure */
+  if (!(limit > USUB_TINY)) { /* no traction, but it grows with the pressure */
     for (int a = 0; a < 2; ++a) {
       z[a] = 0;
       if (tangent)

@@ -25,9 +25,9 @@ contains
       along = 0
       if (length > 0) along = motion/length
       x = 0
-      if (strength > 0) x = min(stiffness*length/strength, 1e30_wp)
+      if (limit > tiny(limit)) x = min(stiffness*length/strength, 1e30_wp)
 
-      if (.not. strength > 0) then ! no traction, but it grows with the pressure
+      if (.not. limit > tiny(limit)) then ! no traction, but it grows with the pressure
         z = 0
         if (present(tangent)) tangent(:, 3) = mu*along
       else if (x > 0) then

@@ -14,6 +14,8 @@
 #define PI ((usub_real)3.14159265358979323846)
 /* Motion, in units of the limit, that ends in steady slip to rounding. */
 #define STEADY 40
+/* Least breakaway: below, the bend where slip begins is lost in rounding. */
+#define LEAST (sizeof(usub_real) == sizeof(double) ? (usub_real)1e-12 : (usub_real)1e-5)
 
 /* Gap and angle; their derivatives by the gap at the beginning; those by the direction of the
  * motion, of the angle in space, which are small where the motion is. */
@@ -181,7 +183,7 @@ static void at_rest(const usub_real bend[2], usub_real width, usub_real by_motio
 }
 
 USUB_BRISTLE_FUNCTION {
-  const usub_real stiffness = props[4], damping = props[5], width = 1 - props[7];
+  const usub_real stiffness = props[4], damping = props[5], width = 1 - (props[7] > LEAST ? props[7] : LEAST);
   const usub_real per_time = time_increment > 0 ? 1 / time_increment : 0;
   const usub_real length = hypot(motion[0], motion[1]), rate = length * per_time;
   usub_real mu_by_rate, *z = vectors[0];
@@ -193,7 +195,7 @@ USUB_BRISTLE_FUNCTION {
       tangent[a][a] = props[6] * per_time;
   }
   const usub_real n[2] = {length > 0 ? motion[0] / length : 0, length > 0 ? motion[1] / length : 0};
-  if (!(limit > 0)) { /* the bristle carries nothing, but it will with the pressure */
+  if (!(limit > USUB_TINY)) { /* the bristle carries nothing, but it will with the pressure */
     for (int a = 0; a < 2; ++a) {
       z[a] = 0;
       if (tangent)

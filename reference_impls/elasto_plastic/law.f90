@@ -19,6 +19,8 @@ module usub_law_function
   public :: bristle
 
   real(wp), parameter :: pi = 3.14159265358979323846_wp
+  ! Least breakaway: below, the bend where slip begins is lost in rounding.
+  real(wp), parameter :: least = merge(1e-12_wp, 1e-5_wp, precision(1.0_wp) > 10)
 
   ! Weights that remove the errors of midpoint sums of 2, 4, ... 12 parts up to the order 12.
   real(wp), parameter :: weights(6) = [-1/302400.0_wp, 8/945.0_wp, -2187/4480.0_wp, &
@@ -203,7 +205,8 @@ contains
     type(path) :: p
     type(change) :: d(3)
     integer :: k
-    associate (stiffness => props(5), damping => props(6), width => 1 - props(8), z => vectors(:, 1))
+    associate (stiffness => props(5), damping => props(6), z => vectors(:, 1), &
+        width => 1 - max(props(8), least))
       per_time = ratio(1.0_wp, time_increment)
       length = hypot(motion(1), motion(2))
       rate = length*per_time
@@ -217,7 +220,7 @@ contains
       n = 0
       if (length > 0) n = motion/length
       t = [-n(2), n(1)]
-      if (.not. limit > 0) then ! the bristle carries nothing, but it will with the pressure
+      if (.not. limit > tiny(limit)) then ! the bristle carries nothing, but it will with the pressure
         z = 0
         if (present(tangent)) tangent(:, 3) = mu*n
         return

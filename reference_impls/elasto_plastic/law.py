@@ -11,6 +11,12 @@ import math
 import usersub
 from usersub.lift import real, stribeck
 
+#: Smallest normal number: a bristle of which the limit is below carries nothing.
+TINY = 2.2250738585072014e-308
+
+#: Least breakaway: below, the bend where slip begins is lost in rounding.
+LEAST = 1e-12
+
 #: Weights that remove the errors of midpoint sums of 2, 4, ... 12 parts up to the order 12.
 WEIGHTS = (-1 / 302400, 8 / 945, -2187 / 4480, 65536 / 14175, -9765625 / 798336, 17496 / 1925)
 
@@ -88,7 +94,7 @@ def held_at_rest(size, width):
 
 @usersub.traction(vectors=1, props=8)
 def elasto_plastic(motion, time_increment, pressure, vectors, props):
-    stiffness, width = props[4], 1.0 - props[7]
+    stiffness, width = props[4], 1.0 - max(props[7], LEAST)
     per_time = 1.0 / time_increment if time_increment > 0.0 else 0.0
     length = math.hypot(motion[0], motion[1])
     rate = length * per_time
@@ -96,7 +102,7 @@ def elasto_plastic(motion, time_increment, pressure, vectors, props):
     size = math.hypot(vectors[0, 0], vectors[0, 1])
     first, second = 0.0 * motion[0], 0.0 * motion[1]
     first_rate, second_rate = 0.0 * motion[0], 0.0 * motion[1]
-    if limit > 0.0:
+    if real(limit) > TINY:
         first, second = vectors[0, 0] + first, vectors[0, 1] + second
         if size > limit:  # a bend beyond a limit that has fallen goes back to it
             first, second = limit * (first / size), limit * (second / size)
@@ -123,6 +129,7 @@ def elasto_plastic(motion, time_increment, pressure, vectors, props):
             first, second = first + bent, second + bent_too
             first_rate, second_rate = per_time * bent, per_time * bent_too
     elif length > 0.0:  # zero, but it grows with the pressure
+        limit = limit - real(limit)
         first, second = limit * (motion[0] / length), limit * (motion[1] / length)
     vectors[0, 0], vectors[0, 1] = first, second
     viscous = props[6] * per_time

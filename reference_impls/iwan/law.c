@@ -21,12 +21,19 @@ USUB_BRISTLE_FUNCTION {
   for (int i = 0; i < n; ++i) {
     const usub_real stiffness = props[2 + i], share = props[2 + n + i];
     const usub_real limit = share * props[0] * pressure;
-    const usub_real trial[2] = {vectors[i][0] + stiffness * motion[0],
-                                vectors[i][1] + stiffness * motion[1]};
-    const usub_real size = hypot(trial[0], trial[1]);
-    const int slips = !(size < limit);
+    usub_real trial[2] = {vectors[i][0] + stiffness * motion[0],
+                          vectors[i][1] + stiffness * motion[1]};
+    usub_real size = hypot(trial[0], trial[1]), unit = 1;
+    if (!(size - size == 0)) { /* beyond the largest number: as a length */
+      unit = stiffness;
+      for (int a = 0; a < 2; ++a)
+        trial[a] = vectors[i][a] / unit + motion[a];
+      size = hypot(trial[0], trial[1]);
+    }
+    const int slips = unit != 1 || !(size < limit);
     const usub_real along[2] = {size > 0 ? trial[0] / size : 0, size > 0 ? trial[1] / size : 0};
-    const usub_real turning = size > 0 ? stiffness * (limit / size) : 0; /* across the traction */
+    const usub_real turning =
+        size > 0 ? stiffness * (limit / size) / unit : 0; /* across the traction */
     for (int a = 0; a < 2; ++a) {
       vectors[i][a] = slips ? limit * along[a] : trial[a];
       traction[a] += vectors[i][a];

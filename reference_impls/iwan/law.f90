@@ -23,16 +23,23 @@ contains
 #include "usersub/bristle_names.fi"
       )
 #include "usersub/bristle_types.fi"
-    real(wp) :: limit, length, along(2), across(2)
+    real(wp) :: limit, length, along(2), across(2), start(2), unit
     integer :: n, i, b
     n = int(props(2))
     traction = 0
     do i = 1, n
       associate (stiffness => props(2 + i), share => props(2 + n + i), element => vectors(:, i))
         limit = share*props(1)*pressure
-        element = element + stiffness*motion
+        start = element
+        unit = 1
+        element = start + stiffness*motion
         length = hypot(element(1), element(2))
-        if (length < limit) then
+        if (.not. length <= huge(length)) then ! beyond the largest number: as a length
+          unit = stiffness
+          element = start/unit + motion
+          length = hypot(element(1), element(2))
+        end if
+        if (length < limit .and. unit == 1) then
           if (present(tangent)) then
             tangent(1, 1) = tangent(1, 1) + stiffness
             tangent(2, 2) = tangent(2, 2) + stiffness
@@ -44,7 +51,7 @@ contains
           if (present(tangent)) then
             across = [-along(2), along(1)]
             do b = 1, 2
-              tangent(:, b) = tangent(:, b) + stiffness*ratio(limit, length)*across*across(b)
+              tangent(:, b) = tangent(:, b) + stiffness*ratio(limit, length)/unit*across*across(b)
             end do
             tangent(:, 3) = tangent(:, 3) + share*props(1)*along
           end if

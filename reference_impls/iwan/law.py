@@ -6,6 +6,9 @@ import math
 
 import usersub
 
+#: Largest number.
+HUGE = 1.7976931348623157e308
+
 
 def elements(props):
     """Number of elements."""
@@ -29,7 +32,12 @@ def iwan(motion, pressure, vectors, props):
         first = vectors[i, 0] + props[2 + i] * motion[0]
         second = vectors[i, 1] + props[2 + i] * motion[1]
         size = math.hypot(first, second)
-        if size >= limit:
+        far = not size <= HUGE
+        if far:  # beyond the largest number: as a length
+            first = vectors[i, 0] / props[2 + i] + motion[0]
+            second = vectors[i, 1] / props[2 + i] + motion[1]
+            size = math.hypot(first, second)
+        if far or size >= limit:
             if size > 0.0:
                 first, second = limit * (first / size), limit * (second / size)
             else:

@@ -6,7 +6,6 @@
 #define USUB_LAW_VECTORS 1
 #define USUB_LAW_READS_PRESSURE
 #define USUB_LAW_READS_TIME
-#include <float.h>
 #include <usersub/bristle_law.h>
 #include <usersub/law_functions.h>
 
@@ -24,8 +23,7 @@ USUB_BRISTLE_FUNCTION {
     if (tangent)
       tangent[a][a] = viscosity * per_time;
   }
-  const usub_real smallest = sizeof(usub_real) == sizeof(double) ? (usub_real)DBL_MIN : FLT_MIN;
-  if (!(limit > smallest)) { /* the bristle carries nothing, but it will with the pressure */
+  if (!(limit > USUB_TINY)) { /* the bristle carries nothing, but it will with the pressure */
     for (int a = 0; a < 2; ++a) {
       z[a] = 0;
       if (tangent)

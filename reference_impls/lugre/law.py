@@ -7,7 +7,10 @@ props: mus, muk, vs, delta, sigma0, sigma1, sigma2.
 import math
 
 import usersub
-from usersub.lift import stribeck
+from usersub.lift import real, stribeck
+
+#: Smallest normal number: a bristle of which the limit is below carries nothing.
+TINY = 2.2250738585072014e-308
 
 
 @usersub.traction(vectors=1, props=7)
@@ -18,7 +21,7 @@ def lugre(motion, time_increment, pressure, vectors, props):
     strength = pressure * stribeck(length * per_time, props[0], props[1], props[2], props[3])
     first, second = vectors[0, 0], vectors[0, 1]
     first_rate, second_rate = 0.0 * motion[0], 0.0 * motion[1]
-    if strength > 0.0:
+    if real(strength) > stiffness * TINY:
         x = min(stiffness * length / strength, 1e30)
         kept = math.exp(-x)
         first_rate = kept * per_time * (motion[0] - x * first)
@@ -31,8 +34,8 @@ def lugre(motion, time_increment, pressure, vectors, props):
             first = first + motion[0] - x * first
             second = second + motion[1] - x * second
     elif length > 0.0:  # zero, but it grows with the pressure
-        first = strength / stiffness * (motion[0] / length)
-        second = strength / stiffness * (motion[1] / length)
+        reach = (strength - real(strength)) / stiffness
+        first, second = reach * (motion[0] / length), reach * (motion[1] / length)
     else:
         first, second = 0.0 * motion[0], 0.0 * motion[1]
     vectors[0, 0], vectors[0, 1] = first, second

@@ -14,10 +14,12 @@ USUB_LAW_FUNCTION {
   const int creeps = rate < props[6];
   const usub_real v = creeps ? props[6] : rate;
   /* from the steady state, in the logarithm */
-  const usub_real distance = log(v * (start / dc));
+  const usub_real product = v * (start / dc);
+  const usub_real distance = usub_is_normal(product) ? log(product) : log(v) + log(start / dc);
   /* at large slip theta is counted from its steady state */
-  const usub_real theta =
+  const usub_real found =
       x < (usub_real)0.7 ? start * exp(distance * expm1(-x)) : dc / v * exp(distance * exp(-x));
+  const usub_real theta = found > USUB_TINY ? found : USUB_TINY; /* 0 was never set */
   state[0] = theta;
   const usub_real mu = mu0 + a * log(v / v0) + b * log(v0 * (theta / dc));
   if (mu < 0)

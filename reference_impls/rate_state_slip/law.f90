@@ -23,12 +23,18 @@ contains
       if (.not. theta > 0) theta = theta0
       x = rate*time_increment/dc
       v = max(rate, v_min)
-      distance = log(v*(theta/dc)) ! from the steady state, in the logarithm
+      distance = v*(theta/dc) ! from the steady state
+      if (distance >= tiny(distance) .and. distance <= huge(distance)) then
+        distance = log(distance)
+      else
+        distance = log(v) + log(theta/dc)
+      end if
       if (x < 0.7_wp) then
         theta = theta*exp(distance*expm1(-x))
       else ! at large slip theta is counted from its steady state
         theta = dc/v*exp(distance*exp(-x))
       end if
+      theta = max(theta, tiny(theta)) ! 0 was never set
       mu = mu0 + a*log(v/v0) + b*log(v0*(theta/dc))
       if (mu < 0) then
         mu = 0

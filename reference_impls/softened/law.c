@@ -6,9 +6,12 @@
 #define USUB_LAW_VECTORS 1
 #define USUB_LAW_READS_PRESSURE
 #include <usersub/bristle_law.h>
+#include <usersub/law_functions.h>
 
 USUB_BRISTLE_FUNCTION {
-  const usub_real slope = props[1], strength = props[0] * pressure;
+  const usub_real slope = props[1], full = props[0] * pressure;
+  /* An elastic slip below the smallest normal number has no digits: it carries nothing. */
+  const usub_real strength = full > slope * USUB_TINY ? full : 0;
   const usub_real trial[2] = {vectors[0][0] + motion[0], vectors[0][1] + motion[1]};
   const usub_real length = hypot(trial[0], trial[1]);
   if (slope * length < strength) {

@@ -18,6 +18,8 @@ contains
     real(wp) :: strength, trial(2), length, direction(2)
     integer :: j
     strength = props(1)*pressure
+    ! an elastic slip below the smallest normal number has no digits: it carries nothing
+    if (.not. strength > props(2)*tiny(strength)) strength = 0
     trial = vectors(:, 1) + motion
     length = hypot(trial(1), trial(2))
     if (props(2)*length < strength) then

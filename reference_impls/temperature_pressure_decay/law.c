@@ -12,10 +12,13 @@ USUB_LAW_FUNCTION {
   const usub_real at_rest = props[0] * temperature + props[1] * pressure;
   const usub_real sliding = props[2] * temperature + props[3] * pressure;
   const usub_real share = usub_bounded_exp(-props[4] * rate);
+  const usub_real mu = sliding + (at_rest - sliding) * share;
+  if (mu < 0)
+    return 0;
   if (derivative) {
     derivative[0] = -props[4] * (at_rest - sliding) * share;
     derivative[1] = props[3] + (props[1] - props[3]) * share;
     derivative[2] = props[2] + (props[0] - props[2]) * share;
   }
-  return sliding + (at_rest - sliding) * share;
+  return mu;
 }

@@ -21,7 +21,9 @@ contains
     sliding = props(3)*temperature + props(4)*pressure
     share = bounded_exp(-props(5)*rate)
     mu = sliding + (at_rest - sliding)*share
-    if (present(derivative)) then
+    if (mu < 0) then
+      mu = 0
+    else if (present(derivative)) then
       derivative(1) = -props(5)*(at_rest - sliding)*share
       derivative(2) = props(4) + (props(2) - props(4))*share
       derivative(3) = props(3) + (props(1) - props(3))*share

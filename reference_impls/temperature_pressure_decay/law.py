@@ -10,4 +10,5 @@ from usersub.lift import bounded_exp
 def temperature_pressure_decay(slip_rate, pressure, temperature, props):
     at_rest = props[0] * temperature + props[1] * pressure
     sliding = props[2] * temperature + props[3] * pressure
-    return sliding + (at_rest - sliding) * bounded_exp(-props[4] * slip_rate)
+    mu = sliding + (at_rest - sliding) * bounded_exp(-props[4] * slip_rate)
+    return mu if mu == 0.0 else max(mu, 0.0)  # at zero the slopes are those of the formula

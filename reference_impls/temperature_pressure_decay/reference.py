@@ -9,7 +9,7 @@ def value(q, props):
     static = props[0] * q.temperature + props[1] * q.pressure
     kinetic = props[2] * q.temperature + props[3] * q.pressure
     share = exp(-props[4] * q.slip_rate)
-    return static * share + kinetic * (1 - share)
+    return max(static * share + kinetic * (1 - share), 0)
 
 
 _POINTS = [

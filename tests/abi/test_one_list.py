@@ -39,6 +39,8 @@ ALLOWED = (
     "tests/meta/healthy/",
     "tests/meta/planted/",
     "tests/unit/check_routines.py",
+    "tests/unit/test_check_around.py",
+    "tests/unit/test_check_hints.py",
     "tests/unit/test_checked_where.py",
     "docs/_build/",
     "build/",

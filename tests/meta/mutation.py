@@ -2,10 +2,10 @@
 """`python -m tests.meta.mutation`: how many small faults in the built-in laws the rules see.
 
 Each mutant (`mutants.py`) of a law in C or Fortran is compiled and checked as a file that claims to
-be that law: first for agreement with the law in Python (rule law.agrees), then by all other rules.
-It is *killed* if a rule of severity "error" fails; *stillborn* if it does not compile or is refused
-when it is loaded; *the same* if its machine code is that of the law. What is left has survived, and
-is equivalent if `mutation.toml` says why nobody could tell it from the law.
+be that law: first for agreement with the law as it is shipped (rule law.agrees), then by all other
+rules. It is *killed* if a rule of severity "error" fails; *stillborn* if it does not compile or is
+refused when it is loaded; *the same* if its machine code is that of the law. What is left has
+survived, and is equivalent if `mutation.toml` says why nobody could tell it from the law.
 
 The page docs/explanation/mutation.md is written by `make mutation`.
 """

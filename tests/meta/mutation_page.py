@@ -18,8 +18,8 @@ HEAD = """\
 
 How good are the rules of `usersub check`? Every built-in law in C and Fortran is broken in many \
 small ways, and each broken copy is checked as a file that claims to be that law \
-(`usersub check law.c --law NAME`): for agreement with the law in Python, and by all other rules. \
-`make mutation` does it and writes this page.
+(`usersub check law.c --law NAME`): for agreement with the law as it is shipped, and by all \
+other rules. `make mutation` does it and writes this page.
 
 A mutant is *killed* if a rule of severity "error" fails. *Stillborn* ones do not compile or are \
 refused when they are loaded; *the same* are those whose machine code is that of the law; \

@@ -155,8 +155,8 @@ def test_loops_close_and_stress_keeps_its_direction(name, interface, method):
 @pytest.mark.parametrize("method", ["limit", "limit lagrange"])
 def test_a_body_above_the_limit_slope_is_not_held(method):
     outcome = problems.run("P9", interface="fric_coef", language="c", method=method)
-    # The last bits of the slope are those of bisection.
-    assert outcome.details["slope"] <= 4e-16
+    # The last bits of the slope are those of bisection, and of the stick limit within a rounding.
+    assert outcome.details["slope"] <= 8e-16
 
 
 def test_multipliers_of_the_bar_leave_the_error_that_is_told():

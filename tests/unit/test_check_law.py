@@ -22,6 +22,7 @@ from usersub.check.rule import CannotCheck, NotApplicable
 from usersub.check.rules import law as rule
 from usersub.check.subject import Scales, Subject
 from usersub.check.subjects import law_subject
+from usersub.errors import MissingTool
 
 
 def subject_of(path: Path, name: str, interface: str, precision: str = "double") -> Subject:
@@ -191,12 +192,25 @@ def test_reference_values_are_used():
     assert found.detail.startswith("fCoef of point 1 is 0.3")
 
 
-def test_the_truth_is_in_another_language():
+def test_the_truth_is_in_another_language(fortran, monkeypatch):
     law = laws.LAWS["coulomb"]
     python = subject_of(law.folder / "law.py", law.name, "fric")
     compiled = subject_of(law.folder / "law.c", law.name, "fric")
     assert law_truth.twin(python, law).routine.language == "c"
+    assert law_truth.twin(compiled, law).routine.language == "fortran"
+
+    def missing(name, interface, language, **more):
+        if language != "python":
+            raise MissingTool("no compiler")
+        return usual(name, interface, language, **more)
+
+    usual = laws.routine
+    monkeypatch.setattr(laws, "routine", missing)
+    law_truth._shipped.cache_clear()
     assert law_truth.twin(compiled, law).routine.language == "python"
+    with pytest.raises(CannotCheck, match="no compiler"):
+        law_truth.twin(python, law)
+    law_truth._shipped.cache_clear()
 
 
 def test_sizes_follow_the_case():

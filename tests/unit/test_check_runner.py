@@ -223,11 +223,9 @@ def test_a_single_rule(tmp_path, checks):
 
 @pytest.mark.parametrize("group", ["a", "repeat"])
 def test_time_is_shared_out(healthy, group):
-    checks = session(healthy, seconds=0.5, workers=1)
-    slow = [rule(f"{group}.slow{k}", lambda s: time.sleep(0.4)) for k in range(8)]
-    start = time.monotonic()
+    checks = session(healthy, seconds=2.0, workers=1)
+    slow = [rule(f"{group}.slow{k}", lambda s: time.sleep(1.0)) for k in range(8)]
     report = checks.report(slow)
-    assert time.monotonic() - start < 2.5  # 3.2 without an end
     assert report.results[0].verdict == PASS
     assert report.results[-1].verdict == SKIP and "no time was left" in report.results[-1].detail
 

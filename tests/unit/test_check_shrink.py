@@ -72,12 +72,14 @@ def test_the_increment_of_touching_stays():
 
 
 def test_the_time_is_kept():
+    calls = []
+
     def slow(case):
+        calls.append(case)
         time.sleep(0.05)
 
-    start = time.monotonic()
     assert list(shrunk(Finding("it fails", BIG), slow, seconds=0.2)) == []
-    assert time.monotonic() - start < 0.5
+    assert 1 <= len(calls) <= 5  # no call is begun after the time is over
 
 
 _numbers = st.floats(-1e3, 1e3, allow_nan=False).map(lambda v: float(f"{v:.5g}"))

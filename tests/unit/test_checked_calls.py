@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -51,9 +50,7 @@ def test_no_return(routine, host):
     driver = host.driver(routine(host, "for (volatile int i = 0;; i++) ;"))
     assert driver.time_limit == 2.0
     driver.time_limit = 0.05
-    before = time.monotonic()
     seen = failed(driver, host, "time", "ROUTINE_CRASHED", "did not return within 0.05 s")
-    assert time.monotonic() - before < 2.0
     assert seen.place > 0
 
 

@@ -71,11 +71,15 @@ def follow(law, props, path):
             driver.begin_increment(DT)
             kept.append(iterate(driver, motion, pressure, turn))
             driver.commit()
+    reach = max(abs(m) for motion, _, _ in path for m in motion)
     for own, driven in zip(*results, strict=True):
+        # At rest after a slip, one may find the elastic slip a rounding beyond its limit.
+        slip = 1e-15 * reach
+        rounding = {"dslip": slip, "sfd": slip * float(np.abs(driven.tau).max())}
         for name in ("tau", "dslip", "ddtddg", "ddtddp", "sed", "sfd"):
             a, b = getattr(own, name), getattr(driven, name)
             # Both stop at rounding of the excess, which enters the tangent with its curvature.
-            size = 1e-10 * (1e-30 + np.abs(b).max())
+            size = 1e-10 * (1e-30 + np.abs(b).max()) + rounding.get(name, 0.0)
             np.testing.assert_allclose(a, b, rtol=1e-8, atol=size, err_msg=name)
 
 

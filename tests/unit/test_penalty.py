@@ -85,13 +85,15 @@ def test_any_case(enforcement, vectors, levels, weights, **settings):
 
 
 def test_sticks_on_the_limit(enforcement):
-    """|g| = c exactly sticks, with the tangent of sticking; the next number slips."""
+    """|g| = c sticks to rounding, with the tangent of sticking; what is clearly beyond slips."""
     case = replace(BASE, elastic_slip=(0.0, 0.0), slip_increment=(3.0, 4.0), critical=5.0, calls=[])
     status, output = update(enforcement, case)
     assert status == CODE["OK"] and output.sticks == 1
     check_state(case, output)
     check_tangent(case, output)
-    case = replace(case, critical=math.nextafter(5.0, 0), calls=[])
+    _, output = update(enforcement, replace(case, critical=math.nextafter(5.0, 0), calls=[]))
+    assert output.sticks == 1
+    case = replace(case, critical=5.0 * (1 - 1e-14), calls=[])
     _, output = update(enforcement, case)
     assert output.sticks == 0
     assert output.equivalent == pytest.approx(5.0 - case.critical, rel=1e-9)

@@ -53,6 +53,9 @@ class Case:
             same numbers.
         props: properties; None: the subject's.
         state: initial state variables of every point; None: zeros.
+        names: of the interaction, the secondary and the main surface; None: the subject's.
+        step_numbers: number of the analysis step of the first increment, and of the others; None:
+            the subject's.
     """
 
     steps: tuple[Step, ...]
@@ -61,6 +64,8 @@ class Case:
     angle: float = 0.0
     props: Numbers | None = None
     state: Numbers | None = None
+    names: tuple[str, str, str] | None = None
+    step_numbers: tuple[int, int] | None = None
 
     @property
     def points(self) -> int:
@@ -79,7 +84,7 @@ class Case:
     def only(self, points: Sequence[int]) -> Case:
         """The case with some of its points, in the order given."""
 
-        def chosen(values: tuple | None) -> tuple | None:
+        def chosen(values: tuple | None) -> Any:
             return None if values is None else tuple(values[p] for p in points)
 
         per_point = ("motion", "load", "stick", "temperature", "fields", "multiplier", "area")
@@ -143,7 +148,7 @@ def _repr_step(step: Step) -> str:
     return _short(step)
 
 
-Step.__repr__ = _repr_step  # type: ignore[method-assign]
+Step.__repr__ = _repr_step  # type: ignore[method-assign, assignment]
 
 
 def one(*motions: Sequence[float], load: float = 1.0, **more: Any) -> Case:

@@ -40,6 +40,19 @@ class Scales:
 
 
 @dataclass(frozen=True)
+class Around:
+    """What a routine is told of its place in the model, by which it may branch.
+
+    Attributes:
+        names: of the interaction, the secondary and the main surface.
+        step_numbers: number of the analysis step of the first increment, and of the others.
+    """
+
+    names: tuple[str, str, str] = ("CHECKED", "", "")
+    step_numbers: tuple[int, int] = (1, 1)
+
+
+@dataclass(frozen=True)
 class Subject:
     """What is checked.
 
@@ -56,6 +69,8 @@ class Subject:
         temperatures: whether the scenes have temperatures.
         anisotropic: whether FRIC_COEF sets both coefficients.
         scales: sizes at which cases are made.
+        around: names and step numbers that the routine is told.
+        others: further ones at which it does something else, to be looked at as well.
         law: name of the built-in law that it claims to be, or "".
         origin: how each of these values was found, by name, for the head of the report.
     """
@@ -73,6 +88,8 @@ class Subject:
     temperatures: bool = True
     anisotropic: bool = False
     scales: Scales = Scales()
+    around: Around = Around()
+    others: tuple[Around, ...] = ()
     law: str = ""
     origin: dict[str, str] = field(default_factory=dict, repr=False)
     tell: Callable[[Case], None] | None = field(default=None, repr=False, compare=False)
@@ -84,7 +101,21 @@ class Subject:
     def under_way(self, case: Case) -> None:
         """Notes which case is looked at, so that a crash can be told with its case."""
         if self.tell is not None:
-            self.tell(case)
+            self.tell(self.placed(case))
+
+    def placed(self, case: Case) -> Case:
+        """The case with the names and step numbers of the subject, where they are not the ordinary
+        ones and the case has none of its own."""
+        around = self.around
+        if around == Around() or case.names is not None:
+            return case
+        return case.but(names=around.names, step_numbers=around.step_numbers)
+
+    def at(self, case: Case) -> Subject:
+        """The subject with the names and step numbers of a case, where it has any."""
+        if case.names is None or case.step_numbers is None:
+            return self
+        return self.but(around=Around(case.names, case.step_numbers))
 
     def respond(self, case: Case, **options: Any) -> list[Answer]:
         """What the routine answers, one `Answer` a step (`usersub.check.respond.respond`)."""

@@ -50,7 +50,28 @@ def _around(case: Case) -> str:
         parts.append(f"properties {_numbers(case.props)}")
     if case.state is not None:
         parts.append(f"initial state {_numbers(case.state)}")
+    if case.names is not None and case.step_numbers is not None:
+        parts += around_in_words(case.names, case.step_numbers)
     return "".join(f", {part}" for part in parts)
+
+
+_NAMED = ("interaction", "secondary surface", "main surface")
+
+
+def around_in_words(names: tuple[str, str, str], step_numbers: tuple[int, int]) -> list[str]:
+    """Names and step numbers that are not the ordinary ones, one part each."""
+    ordinary = ("CHECKED", "", "")
+    parts = [
+        f"{what} '{name}'"
+        for what, name, usual in zip(_NAMED, names, ordinary, strict=True)
+        if name != usual
+    ]
+    first, later = step_numbers
+    if first != later:
+        parts.append(f"step {later} from the second increment on")
+    elif first != 1:
+        parts.append(f"step {first}")
+    return parts
 
 
 def _step(step: Step, load: str) -> str:

@@ -168,11 +168,12 @@ def _run(case: Any) -> dict[str, Any]:
 def row_of(outcome: Any) -> dict[str, Any]:
     """The line of one outcome; a NaN is within no tolerance."""
     row: dict[str, Any] = {name: getattr(outcome, name, None) for name in FIELDS}
-    return row | {"ok": bool(row["error"] <= row["tolerance"]), "failure": None}
+    ok = bool(row["error"] <= row["tolerance"])
+    return row | {"ok": ok, "failure": None, "says": getattr(outcome, "says", "")}
 
 
 def print_rows(rows: list[dict[str, Any]]) -> None:
-    """Prints one table, a line for each result, and why cases failed."""
+    """Prints one table, a line for each result, answers in words, and why cases failed."""
     cells = []
     for row in rows:
         numbers = ("", "", "")
@@ -193,6 +194,21 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
         if row["failure"] is not None:
             names = [str(row[k]) for k in FIELDS[:6]]
             click.echo(f"FAILED: {' '.join(names)}: {row['failure']}")
+    for line in _answers(rows):
+        click.echo(line)
+
+
+def _answers(rows: list[dict[str, Any]]) -> list[str]:
+    """What problems say whose answer is no number, each sentence once."""
+    said: dict[tuple[str, str, str], int] = {}
+    for row in rows:
+        if row.get("says"):
+            key = row["problem"], row["method"], row["says"]
+            said[key] = said.get(key, 0) + 1
+    return [
+        f"{problem} {method}: {says} ({count} case{'s' if count > 1 else ''})"
+        for (problem, method, says), count in said.items()
+    ]
 
 
 def _nanoseconds(value: float) -> str:

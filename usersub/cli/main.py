@@ -13,6 +13,7 @@ _LAZY = {
     "run": ("usersub.cli.run", "Run a scene file: a routine through a history or a problem."),
     "check": ("usersub.cli.check", "Tell whether a routine keeps the contract of its interface."),
     "check-host": ("usersub.cli.check_host", "Tell whether a host calls routines as it should."),
+    "study": ("usersub.cli.study", "Measure error against run time, and stability."),
     "deck": ("usersub.cli.deck", "Tell what an input deck says of friction, and what runs."),
     "laws": ("usersub.cli.laws", "List the shipped laws, or tell all of one."),
     "fit": ("usersub.cli.fit", "Find the properties of a law that fit measured coefficients."),

@@ -21,7 +21,7 @@ from usersub.driver.checked import Checked
 from usersub.driver.clock import Clock, int32
 from usersub.driver.law import LawLike, routine_and_scene
 from usersub.driver.observed import Observed, attach, observe
-from usersub.driver.plan import Plan, PlanRow
+from usersub.driver.plan import Plan, plan_of
 from usersub.driver.scene import Scene
 from usersub.driver.state import State
 from usersub.errors import RoutineError, SceneError
@@ -120,7 +120,7 @@ class Driver(Checked):
             # The transpose of a Fortran-ordered array is the C-ordered one that cffi accepts.
             buffer, count = ffi.from_buffer(array.T), array.size
         self._check(lib.usub_bind(self._handle, name.encode(), buffer, count))
-        self._views.clear()
+        self._views.pop(name, None)
         if array is None:
             self._bound.pop(name, None)
             self._buffers.pop(name, None)
@@ -146,9 +146,10 @@ class Driver(Checked):
     def _view(self, name: str) -> np.ndarray | None:
         if name in self._bound:
             return self._bound[name]
-        if name not in self._views:
-            self._views[name] = self._own_memory(name)
-        return self._views[name]
+        view = self._views.get(name)
+        if view is None:  # asked again each time: it may be allocated by what is bound elsewhere
+            view = self._views[name] = self._own_memory(name)
+        return view
 
     def _own_memory(self, name: str) -> np.ndarray | None:
         data, count = ffi.new("void **"), ffi.new("size_t *")
@@ -180,27 +181,7 @@ class Driver(Checked):
     @property
     def plan(self) -> Plan:
         """What is passed to the routine and what is left out, with the arrays bound now."""
-        rows = []
-        row = ffi.new("usub_plan_row *")
-        for index in range(lib.usub_plan_count(self._handle)):
-            self._check(lib.usub_plan_get(self._handle, index, row))
-            used = None if row.read < 0 else bool(row.read)
-            rows.append(
-                PlanRow(
-                    text(row.argument),
-                    text(row.what),
-                    text(row.why),
-                    used,
-                    row.bytes,
-                    row.bytes_full,
-                )
-            )
-        block, threads = lib.usub_plan_block(self._handle), lib.usub_plan_threads(self._handle)
-        title = (
-            f"{self._title} ({self.routine.language}), {self.kind} driver, "
-            f"{self.scene['precision']} precision, {self.scene['points']} contact points"
-        )
-        return Plan(title, tuple(rows), block, threads, self._plan_notes())
+        return plan_of(self)
 
     def _plan_notes(self) -> tuple[str, ...]:
         """What the driver does besides passing arguments, a line each."""

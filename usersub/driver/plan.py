@@ -3,8 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from usersub.core import ffi, lib, text
+from usersub.errors import SceneError
+
+if TYPE_CHECKING:
+    from usersub.driver.base import Driver
 
 
 @dataclass(frozen=True)
@@ -28,15 +35,47 @@ class PlanRow:
     bytes_full: int
 
 
+class PlanTime(NamedTuple):
+    """Nanoseconds per contact point, measured in turns.
+
+    Attributes:
+        ns: with the plan.
+        ns_full: with every argument passed, read or not.
+    """
+
+    ns: float
+    ns_full: float
+
+
 @dataclass(frozen=True)
 class Plan:
-    """The plan of a driver: its rows, contact points a call (`block`), threads, notes."""
+    """The plan of a driver: its rows, contact points a call (`block`), threads, notes.
+
+    `time` is there once it was measured.
+    """
 
     title: str
     rows: tuple[PlanRow, ...]
     block: int
     threads: int
     notes: tuple[str, ...] = ()
+    time: PlanTime | None = None
+    _measure: Callable[[], tuple[float, float]] | None = field(
+        default=None, repr=False, compare=False
+    )
+
+    def measure(self) -> Plan:
+        """The same plan with `time`, of a driver with the arrays that are bound now.
+
+        Twins of the driver are called in turns; its own arrays and state stay as they are.
+
+        Raises:
+            SceneError: an array that a call needs is not bound.
+            RoutineError: the routine failed.
+        """
+        if self._measure is None:
+            raise SceneError("this plan has no driver; expected one from `driver.plan`")
+        return replace(self, time=PlanTime(*self._measure()))
 
     @property
     def bytes(self) -> int:
@@ -66,7 +105,17 @@ class Plan:
                 "",
                 f"bytes per contact point: {self.bytes} passed, "
                 f"{self.bytes_full} if everything were passed",
+                *self._time_in_words(),
             ]
+        )
+
+    def _time_in_words(self) -> tuple[str, ...]:
+        if self.time is None:
+            return ()
+        ns, full = self.time
+        return (
+            f"time per contact point: {ns:.3g} ns, {full:.3g} ns if everything were passed "
+            f"({full / ns:.2g} times as long)",
         )
 
     def __str__(self) -> str:
@@ -85,3 +134,26 @@ def _line(cells: Iterable[str], widths: list[int]) -> str:
         for i, (cell, width) in enumerate(zip(cells, widths, strict=True))
     ]
     return "  ".join(padded).rstrip()
+
+
+def plan_of(driver: Driver) -> Plan:
+    """The plan of a driver with the arrays that are bound now."""
+    rows = []
+    row = ffi.new("usub_plan_row *")
+    for index in range(lib.usub_plan_count(driver._handle)):
+        driver._check(lib.usub_plan_get(driver._handle, index, row))
+        used = None if row.read < 0 else bool(row.read)
+        words = text(row.argument), text(row.what), text(row.why)
+        rows.append(PlanRow(*words, used, row.bytes, row.bytes_full))
+    title = (
+        f"{driver._title} ({driver.routine.language}), {driver.kind} driver, "
+        f"{driver.scene['precision']} precision, {driver.scene['points']} contact points"
+    )
+
+    def measured() -> tuple[float, float]:
+        from usersub.driver import costs
+
+        return costs.measure(driver)
+
+    block, threads = lib.usub_plan_block(driver._handle), lib.usub_plan_threads(driver._handle)
+    return Plan(title, tuple(rows), block, threads, driver._plan_notes(), _measure=measured)

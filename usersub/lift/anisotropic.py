@@ -80,7 +80,7 @@ def _solver(parts: Parts) -> tuple[Callable, Callable]:
         for step in range(_TRIALS):
             f = max(0.0, trial[4] - c) - e
             rounding = _ROUNDING * (c + e)
-            if (e == 0.0 and f == 0.0) or (e > 0.0 and abs(f) <= rounding):
+            if abs(f) <= rounding:  # an elastic slip that was left at its limit is rounded
                 break
             if f > 0.0:
                 f_high *= 0.5 if side > 0 else 1.0
@@ -110,7 +110,8 @@ def _solution(parts: Parts) -> Callable:
     def solution(n, c, g, point):
         free = (False, False)
         if n == 1:
-            e = max(0.0, abs(g[0]) - c)
+            e = abs(g[0]) - c
+            e = e if e > _ROUNDING * c else 0.0
             plastic, length, found, a, scaled = attempt(e, c, g, free, point)
             return e, (plastic, length, found, (1.0, 1.0, found[0]), abs(g[0])), free
         e, trial = excess(c, g, free, point)
@@ -232,7 +233,7 @@ def penalty(parts: Parts) -> Callable:
         plastic, _, _, a, scaled = trial
 
         slips = e > 0.0 and scaled > 0.0
-        size = scaled if slips else c
+        size = scaled if slips else min(max(scaled, c), c + _ROUNDING * c)
         limit = a[2] * p
         direction = (a[0] * g[0] / size, a[1] * g[1] / size)
         by = derivatives(n, c, e, g, free, trial, slips, direction, DTIME)

@@ -14,6 +14,9 @@ from numpy import empty, zeros
 
 from usersub.lift.kernels import Parts, clear, mean_at, mean_fields
 
+#: A motion below has no direction that can be divided by: the point is at rest.
+LEAST_MOTION = 1e-280
+
 
 def to_local(state, vectors, t, n, i):
     """Vectors of a column of state variables in the local directions of point i."""
@@ -172,9 +175,12 @@ def fric(parts: Parts) -> Callable:
                 vectors[m, 0] = STATEV[m]
                 vectors[m, 1] = 0.0
         field = mean_fields(PREDEF) if fields else PROPS
+        first, second = DGAM[0], DGAM[1] if n > 1 else 0.0
+        if not abs(first) + abs(second) > LEAST_MOTION:
+            first, second = 0.0, 0.0
         found = evaluate(
-            DGAM[0],
-            DGAM[1] if n > 1 else 0.0,
+            first,
+            second,
             DTIME,
             max(PRESS, 0.0),
             0.5 * (TEMP[0] + TEMP[1]) if temperatures else 0.0,

@@ -8,11 +8,20 @@ from typing import Any
 
 from usersub.lift.description import COEFFICIENT, STRENGTH, TRACTION, Count, describe
 from usersub.lift.law_function import LawFunction
+from usersub.routine.vector_math import choice
 
 
-def _law(kind: str, function: Callable | None, anisotropic: bool | None, **settings: Any) -> Any:
+def _law(
+    kind: str,
+    function: Callable | None,
+    anisotropic: bool | None,
+    vector_math: bool | str,
+    **settings: Any,
+) -> Any:
+    choice(vector_math)  # refuses what is none
+
     def make(law: Callable) -> LawFunction:
-        return LawFunction(describe(kind, law, anisotropic=anisotropic, **settings))
+        return LawFunction(describe(kind, law, anisotropic=anisotropic, **settings), vector_math)
 
     return make if function is None else make(function)
 
@@ -24,6 +33,7 @@ def coefficient(
     states: Count = 0,
     derivatives: str | None = "dual",
     anisotropic: bool | None = None,
+    vector_math: bool | str = False,
 ) -> Any:
     """Makes a law of a point function that returns the friction coefficient, or two coefficients,
     `mu1, mu2`, for the two friction directions.
@@ -35,6 +45,7 @@ def coefficient(
         derivatives: "dual": made by dual numbers; "own": the function returns `value,
             (d slip_rate, d pressure, d temperature, d slip_increment)`; None: taken to be zero.
         anisotropic: True where the two coefficients do not show in a return statement.
+        vector_math: vectorised exp, log and pow, as for `usersub.vfric_coef`.
 
     Returns:
         LawFunction.
@@ -43,7 +54,7 @@ def coefficient(
         AbiError: the function cannot be a law; the message says where and why.
     """
     return _law(
-        COEFFICIENT, function, anisotropic, props=props, states=states, vectors=0,
+        COEFFICIENT, function, anisotropic, vector_math, props=props, states=states, vectors=0,
         derivatives=derivatives,
     )  # fmt: skip
 
@@ -54,12 +65,14 @@ def strength(
     props: Count = 0,
     states: Count = 0,
     derivatives: str | None = "dual",
+    vector_math: bool | str = False,
 ) -> Any:
     """Makes a law of a point function that returns the critical shear stress: the point sticks
     below it and slips at it. Arguments as for `coefficient`."""
     return _law(
-        STRENGTH, function, None, props=props, states=states, vectors=0, derivatives=derivatives
-    )
+        STRENGTH, function, None, vector_math, props=props, states=states, vectors=0,
+        derivatives=derivatives,
+    )  # fmt: skip
 
 
 def traction(
@@ -69,6 +82,7 @@ def traction(
     states: Count = 0,
     vectors: Count = 0,
     derivatives: str | None = "dual",
+    vector_math: bool | str = False,
 ) -> Any:
     """Makes a law of a point function that returns a shear traction.
 
@@ -80,6 +94,6 @@ def traction(
     motion 1, motion 2, pressure, temperature.
     """
     return _law(
-        TRACTION, function, None, props=props, states=states, vectors=vectors,
+        TRACTION, function, None, vector_math, props=props, states=states, vectors=vectors,
         derivatives=derivatives,
     )  # fmt: skip

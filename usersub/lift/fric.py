@@ -11,6 +11,8 @@ from usersub.lift.kernels import Parts, clear, mean_fields, ratio
 
 #: Allowable elastic slip over the characteristic length.
 TOLERANCE = 0.005
+#: An elastic slip that was left at its limit is rounded: at rest it must not slip again.
+ROUNDED = 1.0 + 4.0 * 2.220446049250313e-16
 
 
 def turn(statev, drot, dgam):
@@ -53,6 +55,7 @@ def penalty(parts: Parts) -> Callable:
     temperatures, fields = law.reads("temperature"), law.reads("fields")
     rates = law.reads("slip_rate")
     negative = f"{law.name} behind FRIC returns a {law.kind} below zero"
+    overflow = f"{law.name} behind FRIC: coefficient times pressure overflows"
     if stateful:
         no_state += ", and its own state variables behind it"
 
@@ -73,11 +76,11 @@ def penalty(parts: Parts) -> Callable:
 
         turn(STATEV, DROT, DGAM)
         length = math.hypot(STATEV[0], STATEV[1]) if n > 1 else abs(STATEV[0])
-        plastic = max(length - allowable, 0.0)
-        slips = plastic > 0
+        slips = length > allowable * ROUNDED
+        plastic = length - allowable if slips else 0.0
 
         # stress = strength * direction, the direction being shorter than one in stick
-        reach = length if slips else allowable
+        reach = max(length, allowable)
         p = max(PRESS, 0.0)
         value, by_rate, by_pressure, by_temperature, by_slip = evaluate(
             ratio(plastic, DTIME) if rates else 0.0,
@@ -93,6 +96,8 @@ def penalty(parts: Parts) -> Callable:
             raise ValueError(negative)
         factor = 1.0 if is_strength else p
         strength = value * factor
+        if strength == math.inf:
+            raise ValueError(overflow)
         secant = strength / reach
         along = factor * (ratio(by_rate, DTIME) + by_slip) - secant if slips else 0.0
         by_pressure = factor * by_pressure + (0.0 if is_strength else value)

@@ -29,8 +29,9 @@ class LawFunction(RoutineMaker):
         interfaces: the names of these interfaces. Each is an attribute too: `law.vfric`.
     """
 
-    def __init__(self, description: Description):
+    def __init__(self, description: Description, vector_math: bool | str = False):
         self.description = description
+        self._vector_math = vector_math
         self.interfaces = tuple(n for n in abi.NAMES if not _reason(description, n))
         self._parts: Parts | None = None
         self._made: dict[tuple[str, str, bool], PythonRoutine] = {}
@@ -174,6 +175,7 @@ class LawFunction(RoutineMaker):
             compiled=compiled,
             # State variables stand in rData for one point alone.
             block_safe=face.name != "fric_coef" or law.states == 0,
+            vector_math=self._vector_math,
         )
         prepared = {
             field: Prepared(getattr(routine, field), self._all_parts(), function)

@@ -57,7 +57,9 @@ def _share(props, start, low, high, x):
     x_low, x_high = props[start + low] * 1.0, props[start + high] * 1.0
     inside = 1.0 if high > low else 0.0
     distance = pairs.times(pairs.add(pairs.pair(x), (-x_low, 0.0)), (inside, 0.0))
-    width = pairs.add((x_high, 0.0), (-x_low if high > low else 1.0 - x_low, 0.0))
+    width = (1.0, 0.0)
+    if high > low:
+        width = pairs.add((x_high, 0.0), (-x_low, 0.0))
     return pairs.over(distance, width)
 
 

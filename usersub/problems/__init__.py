@@ -29,6 +29,9 @@ from usersub.problems import (
     p17,
     p18,
     p19,
+    p20,
+    p21,
+    p22,
     p23,
     p24,
 )
@@ -63,6 +66,9 @@ PROBLEMS: dict[str, Problem] = {
         p17,
         p18,
         p19,
+        p20,
+        p21,
+        p22,
         p23,
         p24,
     )

@@ -4,9 +4,23 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable
 
 from usersub.errors import SceneError
+
+
+def positive(problem: str, option: str, value: float | None, default: float) -> float:
+    """The value of an option, or its default where there is none.
+
+    Raises:
+        SceneError: it is not a finite number above zero.
+    """
+    if value is None:
+        return default
+    if not (isinstance(value, float | int) and 0.0 < value < math.inf):
+        raise SceneError(f"problem {problem}: {option} is {value!r}, expected a number above 0")
+    return float(value)
 
 
 def one_of(kind: str, given: Iterable[str], known: Iterable[str], of: str) -> str:

@@ -43,8 +43,8 @@ _POINTS = 16
 _INTERVALS = (80, 160, 320, 640)
 _TABLE_SAMPLES = 1024
 
-#: Refinements of P10, P11, P12, P19 by "points" or "steps", method and interface; errors by their
-#: names in the details. The counts of P10 leave the same rest divided by three.
+#: Refinements of P10 to P12, P19, P20, P22 and P23 by "points" or "steps", method and interface;
+#: errors by their names in the details. The counts of P10 leave the same rest divided by three.
 _REFINED = (
     ("P10", "coulomb", "fric", "penalty", "points", (16, 31, 61), ("force", "loop")),
     ("P11", "coulomb", "fric_coef", "lagrange", "points", (16, 32, 64),
@@ -52,6 +52,11 @@ _REFINED = (
     ("P12", "coulomb", "fric", "penalty", "points", (16, 32, 64), ("logarithm",)),
     ("P19", "orthotropic", "fric", "midpoint", "steps", (16, 32, 64), ("speed", "angle")),
     ("P19", "anisotropic", "fric_coef", "midpoint", "steps", (16, 32, 64), ("speed", "angle")),
+    ("P20", "coulomb", "fric", "compliant", "steps", (200, 400, 800), ("force at 1e+06 N/m",)),
+    ("P20", "coulomb", "vfric", "compliant", "steps", (200, 400, 800), ("force at 1e+06 N/m",)),
+    ("P22", "coulomb", "fric_coef", "midpoint", "steps", (600, 1200, 2400), ("motion", "growth")),
+    ("P22", "coulomb", "vfriction", "central differences", "steps", (600, 1200, 2400),
+     ("motion", "growth")),
     ("P23", "coulomb", "vfric_coef", "central differences", "steps", (500, 1000, 2000),
      ("rough amplitude", "rough last turn")),
     ("P23", "coulomb", "fric_coef", "trapezoidal rule", "steps", (500, 1000, 2000),

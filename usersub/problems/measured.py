@@ -21,6 +21,7 @@ class Measured:
         tolerance: error that the method allows, by precision.
         errors: largest error over the languages, by precision and quantity.
         steps: increments until the block stands still; 0 for other problems.
+        says: the answer in words, of the first run.
     """
 
     problem: str
@@ -29,6 +30,7 @@ class Measured:
     method: str
     error_of: str
     steps: int
+    says: str = ""
     tolerance: dict[str, float] = field(default_factory=dict)
     errors: dict[str, dict[str, float]] = field(default_factory=dict)
 
@@ -61,6 +63,6 @@ def measure(
         if key not in found:
             stop = outcome.details.get("stopping_time", 0.0)
             steps = round(stop / outcome.step)
-            found[key] = Measured(*key, outcome.error_of, steps)
+            found[key] = Measured(*key, outcome.error_of, steps, outcome.says)
         found[key].add(outcome)
     return list(found.values())

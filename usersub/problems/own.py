@@ -16,12 +16,34 @@ if TYPE_CHECKING:
 _SUFFIXES = {"python": ".py", "c": ".c", "fortran": ".f90"}
 
 #: Laws of single problems, and where they stand.
-OWN = {"orthotropic": ("fric",)}
+OWN = {"orthotropic": ("fric",), "dahl_theta": ("fric", "vfric", "vfriction")}
+
+#: Other updates of a law's state than its own, which is exact: by law, the routine that has them,
+#: and the property that it takes besides for each.
+UPDATES = {
+    "dahl": (
+        "dahl_theta",
+        {"explicit Euler": 0.0, "trapezoidal rule": 0.5, "implicit Euler": 1.0},
+    ),
+}
 
 
 def carries(law: str, interface: str) -> bool:
     """Whether `law` has a routine behind `interface`."""
     return interface in (OWN[law] if law in OWN else laws.LAWS[law].interfaces)
+
+
+def updated(law: str, update: str) -> str:
+    """Name of the law whose routine has another update of the state; "" is the law's own.
+
+    Raises:
+        SceneError: the law has no such update.
+    """
+    if not update:
+        return law
+    name, updates = UPDATES.get(law, ("", {}))
+    one_of("update", [update], updates, f"law {law}")
+    return name
 
 
 def path(law: str, language: str) -> Path:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from usersub.problems.choose import positive
 from usersub.problems.linear_host import LinearHost, Springs, make_driver
 from usersub.problems.problem import Outcome, Problem
 
@@ -121,11 +122,13 @@ def run(
     *,
     points: int = 32,
     steps: int = 4,
+    elastic_slip: float = ALLOWABLE,
 ) -> Outcome:
     """Drag, drag back, and forth again: force, stick radius, dissipation of the loop."""
     contact = rings(points)
+    allowable = positive("P10", "elastic_slip", elastic_slip, ALLOWABLE)
     driver = make_driver(
-        routine, [MU], points, directions=2, allowable=ALLOWABLE, lagrange=method == "lagrange"
+        routine, [MU], points, directions=2, allowable=allowable, lagrange=method == "lagrange"
     )
     host, load = LinearHost(driver, springs(contact), 1e3), np.zeros(points + 1)
     answer = exact()
@@ -138,7 +141,8 @@ def run(
         return float(contact.area @ host.stress)
 
     force = drag(0.0, 1.0)
-    stuck = _stick_radius(contact, host.unknowns[:-1])
+    beyond = np.maximum(np.abs(host.unknowns[:-1]) - allowable * (method == "penalty"), 0.0)
+    stuck = _stick_radius(contact, beyond)
     drag(1.0, -1.0)
     drag(-1.0, 1.0)
     before = host.dissipated
@@ -171,5 +175,9 @@ PROBLEM = Problem(
     laws=("coulomb",),
     methods={"fric": ("penalty",), "fric_coef": ("penalty", "lagrange")},
     runner=run,
-    options={"points": "contact points, one a ring", "steps": "increments from zero to the force"},
+    options={
+        "points": "contact points, one a ring",
+        "steps": "increments from zero to the force",
+        "elastic_slip": "allowable elastic slip of penalty enforcement",
+    },
 )

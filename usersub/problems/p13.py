@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from usersub.errors import SceneError
+from usersub.problems import own
 from usersub.problems.path_host import PRESSURE, Path, outcome, worst
 from usersub.problems.problem import Outcome, Problem
 
@@ -19,6 +21,9 @@ STRENGTH, STIFFNESS, REACH = 2.0, 1e3, 3e-3
 
 #: Static coefficient and Stribeck velocity of LuGre, damping, viscosity, slip rate.
 _STATIC, _VELOCITY, _DAMPING, _VISCOSITY, _RATE = 0.9, 0.02, 3.0, 0.7, 0.01
+
+#: Motion in equal increments, by the bend at the strength.
+_SLIDE = 4.0
 
 #: Bend up to which the elasto-plastic bristle is elastic.
 _BREAKAWAY = 0.7
@@ -60,11 +65,15 @@ def _props(law: str, damped: bool) -> list[float]:
     return [kinetic, kinetic, _VELOCITY, 2.0, STIFFNESS, *damping, _BREAKAWAY]
 
 
-def _started(path: Path, law: str) -> dict[str, float]:
-    """From rest into steady slip at a constant rate, in increments of very different lengths."""
+def _started(path: Path, law: str, steps: int | None) -> dict[str, float]:
+    """From rest into steady slip at a constant rate, in increments of very different lengths, or in
+    equal ones up to where the strength is nearly reached."""
     motion, error = 0.0, 0.0
     strength, damped = _strength(law, _RATE), law == "lugre"
-    for length in (1e-9, 3e-5, 4e-4, 2e-3, 1e-4, 5e-3, 4.0):
+    lengths = (1e-9, 3e-5, 4e-4, 2e-3, 1e-4, 5e-3, 4.0)
+    if steps is not None:
+        lengths = (_SLIDE * STRENGTH / STIFFNESS / steps,) * steps
+    for length in lengths:
         motion += length
         exact = start(motion, strength)
         if damped:
@@ -74,7 +83,7 @@ def _started(path: Path, law: str) -> dict[str, float]:
     return {"start": error}
 
 
-def _looped(path: Path, law: str) -> dict[str, float]:
+def _looped(path: Path, law: str, steps: int | None) -> dict[str, float]:
     """Loops between two ends; increments from one Gauss point to the next, for the work."""
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     stops = np.concatenate([[-1.0], nodes, [1.0]])
@@ -125,21 +134,51 @@ def _held(path: Path) -> dict[str, float]:
 _RUNNERS = {
     ("dahl", "start"): (_started, "traction"),
     ("lugre", "start"): (_started, "traction"),
-    ("elasto_plastic", "start"): (lambda path, _: _broken(path), "traction"),
+    ("elasto_plastic", "start"): (lambda path, *_: _broken(path), "traction"),
     ("dahl", "loop"): (_looped, "ends and work of the loop"),
     ("lugre", "loop"): (_looped, "ends and work of the loop"),
-    ("elasto_plastic", "loop"): (lambda path, _: _held(path), "creep in loops"),
+    ("elasto_plastic", "loop"): (lambda path, *_: _held(path), "creep in loops"),
 }
 
 
-def run(routine: Routine, law: str, precision: str, method: str, *, points: int = 8) -> Outcome:
+def run(
+    routine: Routine,
+    law: str,
+    precision: str,
+    method: str,
+    *,
+    points: int = 8,
+    steps: int | None = None,
+    update: str = "",
+) -> Outcome:
     """One run against the closed forms."""
-    path = Path(routine, law, _props(law, method == "start"), points, precision)
+    _check(law, method, steps, update)
+    props, tolerance = _props(law, method == "start"), _TOLERANCES[precision]
+    if update:
+        theta = own.UPDATES[law][1][update]
+        props.append(theta)
+        # The relative error is largest in the first increment: h/2, or h^2/12.
+        h = _SLIDE / (steps or 1)
+        tolerance += 0.1 * h**2 if theta == 0.5 else 0.6 * h
+    path = Path(routine, law, props, points, precision)
     runner, error_of = _RUNNERS[law, method]
+    stepped = steps and method == "start" and law != "elasto_plastic"
+    length = _SLIDE * STRENGTH / STIFFNESS / (steps or 1)
     return outcome(
-        "P13", routine, law, precision, method, path, runner(path, law), _TOLERANCES[precision],
-        0.4, error_of,
+        "P13", routine, law, precision, method, path, runner(path, law, steps), tolerance,
+        length / _RATE if stepped else 0.4, error_of,
     )  # fmt: skip
+
+
+def _check(law: str, method: str, steps: int | None, update: str) -> None:
+    if steps is not None and steps < 1:
+        raise SceneError(f"problem P13: steps is {steps}, expected 1 or more")
+    if update:
+        own.updated(law, update)
+        if steps is None or method != "start":
+            raise SceneError(
+                f"problem P13: the update '{update}' needs steps, and is for 'start' alone"
+            )
 
 
 _METHODS = ("start", "loop")
@@ -153,5 +192,11 @@ PROBLEM = Problem(
     laws=("dahl", "lugre", "elasto_plastic"),
     methods=dict.fromkeys(("fric", "vfric", "vfriction"), _METHODS),
     runner=run,
-    options={"points": "contact points"},
+    options={
+        "points": "contact points",
+        "steps": "equal increments from rest, instead of some that differ (dahl and lugre, start)",
+        "update": "how dahl's state is updated: explicit Euler, trapezoidal rule, implicit Euler; "
+        "exactly if not given",
+    },
+    updates={law: {"start": tuple(updates)} for law, (_, updates) in own.UPDATES.items()},
 )

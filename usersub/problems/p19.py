@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from usersub.problems import fixed
+from usersub.problems.choose import positive
 from usersub.problems.problem import Outcome, Problem, Stopwatch
 
 if TYPE_CHECKING:
@@ -79,13 +80,15 @@ class Exact:
 class Particles:
     """Particles of unit mass in an implicit host: the implicit midpoint rule."""
 
-    def __init__(self, routine: Routine, law: str, points: int, lagrange: bool) -> None:
+    def __init__(
+        self, routine: Routine, law: str, points: int, lagrange: bool, allowable: float = ALLOWABLE
+    ) -> None:
         from usersub import Scene, StandardDriver
 
         fric = routine.interface.name == "fric"
         scene = Scene(
-            points=points, dimension=3, characteristic_length=ALLOWABLE / 5e-3,
-            props=list(MU) + ([] if law == "anisotropic" else [ALLOWABLE]),
+            points=points, dimension=3, characteristic_length=allowable / 5e-3,
+            props=list(MU) + ([] if law == "anisotropic" else [allowable]),
             states=2 if fric else 0, anisotropic=0 if fric else 1,
             enforcement="lagrange" if lagrange else "default",
         )  # fmt: skip
@@ -136,10 +139,12 @@ def run(
     *,
     points: int = 8,
     steps: int = 64,
+    elastic_slip: float = ALLOWABLE,
 ) -> Outcome:
     """Speed and angle of the particles against the closed form."""
     start, exact = angles(points), Exact(law)
-    particles = Particles(routine, law, points, method == "midpoint lagrange")
+    allowable = positive("P19", "elastic_slip", elastic_slip, ALLOWABLE)
+    particles = Particles(routine, law, points, method == "midpoint lagrange", allowable)
     velocity = SPEED * np.array([np.cos(start), np.sin(start)])
     for _ in range(steps):
         velocity = particles.increment(velocity, TIME / steps)
@@ -169,5 +174,9 @@ PROBLEM = Problem(
     laws=("orthotropic", "anisotropic"),
     methods={"fric": ("midpoint",), "fric_coef": ("midpoint", "midpoint lagrange")},
     runner=run,
-    options={"points": "particles with different directions", "steps": "increments"},
+    options={
+        "points": "particles with different directions",
+        "steps": "increments",
+        "elastic_slip": "allowable elastic slip of penalty enforcement",
+    },
 )

@@ -27,6 +27,9 @@ from usersub.problems import (
     p16,
     p17,
     p19,
+    p20,
+    p21,
+    p22,
     p23,
 )
 from usersub.problems.convergence import EXACT, IRREGULAR, SMOOTH, Study
@@ -57,6 +60,7 @@ def page(measured: Iterable[Measured], studies: Iterable[Study], stamp: str) -> 
             f"{p}_MEASURED": (_block_table if p in _BLOCKS else _point_table)(found)
             for p, found in by_problem.items()
         },
+        **{f"{p}_SAYS": _sentences(found) for p, found in by_problem.items()},
         "CONVERGENCE": _runs([s for s in studies if s.kind == SMOOTH]),
         "EXACT": _runs([s for s in studies if s.kind == EXACT]),
         "ELEMENTS": _runs(irregular),
@@ -108,9 +112,20 @@ def _exact() -> dict[str, str]:
         "P17_SMALL": 2.0 * np.pi / p17.linear(1.0)[1], "P19_SPEED": speeds["orthotropic"],
         "P19_ANGLE": turned["orthotropic"], "P19_ELLIPSE_SPEED": speeds["anisotropic"],
         "P19_ELLIPSE_ANGLE": turned["anisotropic"],
+        **_exact_contacts(),
         **_exact_sliders(),
     }  # fmt: skip
     return {name: f"{number:.10g}" for name, number in numbers.items()}
+
+
+def _exact_contacts() -> dict[str, float]:
+    """Of the problems with several solutions, or none, and of the masses that flutter."""
+    lower, upper = p20.bad_angles(p20.COMPLIANT) or (np.nan, np.nan)
+    growth = p22.exact(p22.system(len(p22.COUPLING)).stiffness).growth
+    return {
+        "P20_MU": p20.COMPLIANT, "P20_LOWER": lower, "P20_UPPER": upper, "P21_MU": p21.MU,
+        "P22_GROWTH": growth.max(), "P22_FADE": -growth.min(),
+    }  # fmt: skip
 
 
 def _exact_sliders() -> dict[str, float]:
@@ -165,6 +180,15 @@ def _point_table(measured: list[Measured]) -> str:
         for m in measured
     ]  # fmt: skip
     return table("law, interface, method, error of, >double, >allowed", rows)
+
+
+def _sentences(measured: list[Measured]) -> str:
+    """The answers in words, each once, with the methods that give it."""
+    said: dict[str, list[str]] = {}
+    for m in measured:
+        if m.says and f"`{m.method}`" not in said.setdefault(m.says, []):
+            said[m.says].append(f"`{m.method}`")
+    return "\n".join(f"- {', '.join(methods)}: {says}." for says, methods in said.items())
 
 
 def _runs(studies: list[Study]) -> str:

@@ -35,6 +35,7 @@ class Outcome:
         ns_per_point: time of the median driver call over its contact points, in nanoseconds.
         tolerance: the error that the method allows.
         details: more numbers: orders of convergence, Newton iterations, errors one by one.
+        says: the answer in words where no number is one ("no solution", "two solutions").
         history: arrays against time, by name, for files and figures.
     """
 
@@ -52,6 +53,7 @@ class Outcome:
     ns_per_point: float
     tolerance: float
     details: Mapping[str, float] = field(default_factory=dict)
+    says: str = ""
     history: Mapping[str, np.ndarray] | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -78,6 +80,8 @@ class Problem:
         runner: `runner(routine, law, precision, method, **options) -> Outcome`.
         options: further options of the runner and what they mean.
         laws_by_interface: laws of interfaces that do not take all of `laws`.
+        updates: by law and method, other updates of its state than its own, for the option
+            `update`: routines of the problem's own (`usersub.problems.own`).
     """
 
     name: str
@@ -88,6 +92,7 @@ class Problem:
     runner: Callable[..., Outcome] = field(repr=False)
     options: Mapping[str, str] = field(default_factory=dict)
     laws_by_interface: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    updates: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
     def laws_of(self, interface: str) -> tuple[str, ...]:
         """Laws that the problem runs through an interface; the first is the default."""

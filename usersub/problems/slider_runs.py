@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from usersub.errors import SceneError
+from usersub.problems.choose import positive
 from usersub.problems.problem import Outcome
 from usersub.problems.slider import Event, Follower, System
 from usersub.problems.slider_explicit import CentralDifferences, KinematicContact, Rubbing
@@ -30,6 +32,9 @@ METHODS = {
 OPTIONS = {
     "points": "contact points that share the mass",
     "steps": "increments of the whole run",
+    "elastic_slip": "allowable elastic slip of implicit penalty enforcement",
+    "stiffness": "stiffness of explicit penalty enforcement over the problem's own; the damping "
+    "goes with its root",
 }
 
 #: For a problem that ends at rest.
@@ -89,14 +94,22 @@ class Slider:
         points: int = 3,
         steps: int | None = None,
         hold: int = 0,
+        elastic_slip: float | None = None,
+        stiffness: float = 1.0,
     ) -> Outcome:
         """One run."""
         if steps is not None and steps < 1:
             raise SceneError(f"problem {self.name}: steps is {steps}, expected 1 or more")
         steps = steps or self.steps.get(method, _EVENT_STEPS)
+        soft = replace(
+            self,
+            allowable=positive(self.name, "elastic_slip", elastic_slip, self.allowable),
+            slope=self.slope * positive(self.name, "stiffness", stiffness, 1.0),
+            damping=self.damping * math.sqrt(stiffness),
+        )
         # No event falls upon the end of an increment by itself.
         step = self.end / (steps - 0.37)
-        host, watch = self._host(routine, law, precision, method, points, step)
+        host, watch = soft._host(routine, law, precision, method, points, step)
         events = (
             host.follow(self.end, self.count)
             if isinstance(host, Follower)

@@ -19,9 +19,11 @@ from usersub import abi
 from usersub.emit.numba_adapter import adapter_source, is_array
 from usersub.errors import CompileError, LoadError
 from usersub.routine import cache as code_cache
+from usersub.routine import vector_math
 from usersub.routine.declaration import Declaration
 from usersub.routine.fingerprint import fingerprint
 from usersub.routine.routine import BLOCK, FULL, POINTS, Entry
+from usersub.routine.vector_math import LIBMVEC
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _PLACE = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
@@ -39,8 +41,16 @@ _WHOLE_DIVISIONS = ("//", "//=", "%", "%=")
 _WORDS = 600
 
 
-def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK) -> Entry:
+def compiled_entry(
+    declaration: Declaration, precision: str, style: int = BLOCK, vector: str = ""
+) -> Entry:
     """Machine code of the function behind its adapter, from the cache or freshly compiled.
+
+    Args:
+        declaration: the function and its arguments.
+        precision: "double" or "single".
+        style: BLOCK, POINTS or FULL.
+        vector: where exp, log and pow come from (`vector_math.choice`).
 
     Raises:
         CompileError: numba refuses the function; the message has file, line and numba's words.
@@ -49,9 +59,15 @@ def compiled_entry(declaration: Declaration, precision: str, style: int = BLOCK)
 
     source = adapter_source(declaration.interface, declaration.positions, precision, style)
     law = declaration.law
-    if law is declaration.function:
-        law = numba.njit(**{**OPTIONS, "error_model": error_model(law)})(law)
-    file = _cached_source(declaration, source)
+    options = {**OPTIONS, "error_model": error_model(law)} if law is declaration.function else {}
+    if vector:
+        options = options or dict(law.targetoptions)
+        options["nopython"] = True
+        own = vector_math.pipeline(vector)
+        law = numba.jit(pipeline_class=own, **options)(declaration.function)
+    elif options:
+        law = numba.njit(**options)(law)
+    file = _cached_source(declaration, source, vector)
     signature = _signature(declaration.interface, style)
     if file is not None:
         try:
@@ -148,7 +164,7 @@ def _adapter(source: str, file: Path | None, law: Any) -> Any:
     return function
 
 
-def _cached_source(declaration: Declaration, source: str) -> Path | None:
+def _cached_source(declaration: Declaration, source: str, vector: str) -> Path | None:
     """The adapter's source as a file of the cache; numba keeps the machine code beside it.
 
     None if the function depends on something that has no value to compare, or if there is no
@@ -163,10 +179,11 @@ def _cached_source(declaration: Declaration, source: str) -> Path | None:
     flags = ("BOUNDSCHECK", "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "DEBUGINFO_DEFAULT")
     key = code_cache.key(
         source, law, abi.abi_hash(), sys.version, numba.__version__, llvmlite.__version__,
-        str([getattr(numba.config, flag, None) for flag in flags]), _tools_hash(),
+        str([getattr(numba.config, flag, None) for flag in flags]), _tools_hash(), vector,
     )  # fmt: skip
     try:
-        home = code_cache.folder() / "numba"
+        # Code that calls libmvec must not be loaded before it: it is kept apart.
+        home = code_cache.folder() / ("numba-libmvec" if vector == LIBMVEC else "numba")
         home.mkdir(mode=0o700, exist_ok=True)
         file = home / f"{declaration.interface.key}_{key}.py"
         # numba trusts what it compiled for a file of this time and size: write it only once.
@@ -181,7 +198,8 @@ def _cached_source(declaration: Declaration, source: str) -> Path | None:
 def _tools_hash() -> str:
     """Hash of our own code that ends up in the machine code."""
     folder = Path(__file__).parent
-    files = [folder / "numba_tools.py", Path(__file__), *sorted(folder.parent.glob("lift/*.py"))]
+    ours = ("numba_tools.py", "lanes.py", "vector_kernels.py", "vector_math.py")
+    files = [Path(__file__), *(folder / n for n in ours), *sorted(folder.parent.glob("lift/*.py"))]
     texts = [file.read_bytes() for file in files]
     return hashlib.sha256(b"".join(texts)).hexdigest()
 

@@ -17,6 +17,13 @@
 #define USUB_TINY DBL_MIN
 #endif
 
+/* Whether a positive number has neither overflown nor lost digits. */
+#ifdef USUB_SINGLE
+#define usub_is_normal(x) ((x) >= FLT_MIN && (x) <= FLT_MAX)
+#else
+#define usub_is_normal(x) ((x) >= DBL_MIN && (x) <= DBL_MAX)
+#endif
+
 /* Largest argument of exp that leaves room for a factor. */
 #ifdef USUB_SINGLE
 #define USUB_MOST_EXPONENT 70.0f

@@ -5,6 +5,7 @@ decades from a fixed seed, at the bounds of the properties and at the values tha
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
 DRAWS, HISTORIES = 50, 3
 #: Most points of an axis of a table, field variables of a table, and elements of a law.
 _AXIS, _FIELDS = 3, 2
+#: Decade of extreme motions, by precision: with what is drawn around it, no input overflows.
+_EXTREME = {"double": 304.0, "single": 34.0}
+#: Least time increment of extreme motions.
+_LONG = 64.0
 
 
 # Properties.
@@ -45,7 +50,7 @@ def props(law: Law, seed: int = 1, draws: int = DRAWS) -> Iterator[tuple[float, 
 
 
 def _drawn(law: Law, prop: Prop, random: np.random.Generator) -> float:
-    """One number in its range: near the example, at a bound, or anywhere."""
+    """One number in its range: near the example, at a bound, one, or anywhere."""
     within = prop.range
     if within.choices:
         return float(random.choice(within.choices))
@@ -58,6 +63,8 @@ def _drawn(law: Law, prop: Prop, random: np.random.Generator) -> float:
     if way < 0.16 and within.at_most is not None:
         return float(within.at_most)
     value = sign * size * 10.0 ** random.uniform(-1.0, 1.0) if way < 0.9 else -sign * size
+    if 0.16 <= way < 0.22 and within.allows(1.0):
+        value = 1.0  # an exponent or a share at which formulas simplify
     if within.whole:
         value = float(round(value))
     if not within.allows(value):
@@ -140,6 +147,20 @@ def histories(
         yield Case(tuple(steps), contact=contact, props=tuple(float(v) for v in values))
 
 
+def extremes(subject: Subject, law: Law, values: Sequence[float], seed: int = 1) -> Iterator[Case]:
+    """A case with properties `values` and motions near the end of the numbers: what is a sum or a
+    product of theirs on the way to the answer must not overflow."""
+    random = np.random.default_rng(seed)
+    decade = _EXTREME[subject.precision]
+    motion = 10.0 ** random.uniform(decade - 1, decade)
+    # Times such that slip rates do not overflow: nobody could pass these on.
+    steps = [
+        replace(step, dt=max(step.dt, _LONG))
+        for step in _steps(subject, law, values, 2, 2, random, motion)
+    ]
+    yield Case(tuple(steps), props=tuple(float(v) for v in values))
+
+
 def _steps(
     subject: Subject,
     law: Law,
@@ -147,12 +168,14 @@ def _steps(
     points: int,
     directions: int,
     random: np.random.Generator,
+    motion: float = 0.0,
 ) -> Iterator[Step]:
     """Six increments: the points come to touch, then move as it comes."""
     heat = "temperature" in law.reads and random.uniform() < 0.8
     fields = _field_count(law, values) if random.uniform() < 0.9 else 0
     nodes = [abs(v) for v in values if v and np.isfinite(v) and 1e-12 < abs(v) < 1e12]
-    motion, load = 10.0 ** random.uniform(-8, 2), 10.0 ** random.uniform(-2, 4)
+    motion = motion or 10.0 ** random.uniform(-8, 2)
+    load = 10.0 ** random.uniform(-2, 4)
     step = 2.0 ** random.integers(-8, 6)
     still = ((0.0,) * directions,) * points
     for number in range(6):

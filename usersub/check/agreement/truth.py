@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """What a built-in law answers, by a path that does not go through the routine under check: the
-shipped law in another language, and the reference values of arbitrary precision."""
+shipped law, in another language if it is itself under check, and the reference values of arbitrary
+precision."""
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,36 +17,48 @@ import numpy as np
 
 from usersub.check.case import Case, Step
 from usersub.check.rule import CannotCheck
-from usersub.check.subjects.law_subject import recognised
-from usersub.errors import Error
+from usersub.check.subjects.law_subject import recognised_language
+from usersub.errors import Error, MissingTool
 
 if TYPE_CHECKING:
     from usersub.check.subject import Subject
     from usersub.laws.description import Law
+    from usersub.routine.routine import Routine
 
 #: Name of the file with the reference values of a law.
 _REFERENCE = "reference.json"
+#: Languages of the law that answers, in the order of what they cost: Python has to be compiled
+#: function by function.
+_LANGUAGES = ("c", "fortran", "python")
 
 
 def twin(subject: Subject, law: Law) -> Subject:
-    """The law itself as a subject: in Python, or in C if that is what is checked.
+    """The law itself as a subject: in C, or in another language if it is the law in C that is
+    checked or if there is no C compiler.
 
     Raises:
-        CannotCheck: the law does not stand behind the interface, or there is no compiler.
+        CannotCheck: the law does not stand behind the interface.
     """
-    from usersub import laws
-
-    own = subject.routine is not None and subject.routine.language == "python"
-    language = "c" if own and recognised(subject.path) == law.name else "python"
+    own = recognised_language(subject, law.name)
     try:
-        routine = laws.routine(
-            law.name, subject.interface.name, language, precision=subject.precision
-        )
+        routine = _shipped(law.name, subject.interface.name, subject.precision, own)
     except Error as error:
-        raise CannotCheck(f"the built-in law {law.name} in {language}: {error}") from error
+        raise CannotCheck(f"the built-in law {law.name}: {error}") from error
     return subject.but(
         name=law.name, routine=routine, interface=routine.interface, path=None, file=None
     )
+
+
+@cache
+def _shipped(name: str, interface: str, precision: str, but_in: str) -> Routine:
+    """The routine of a law in the first language that there is a compiler for, but for one."""
+    from usersub import laws
+
+    languages = [language for language in _LANGUAGES if language != but_in]
+    for language in languages[:-1]:
+        with contextlib.suppress(MissingTool):
+            return laws.routine(name, interface, language, precision=precision)
+    return laws.routine(name, interface, languages[-1], precision=precision)
 
 
 def sized(subject: Subject, law: Law, case: Case) -> Subject:

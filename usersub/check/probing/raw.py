@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from usersub import abi
+from usersub.check.clocks import processor_time
 from usersub.check.probing.raw_values import allocated, fill
 from usersub.routine.routine import BLOCK, FULL, POINTS, Entry
 
@@ -37,6 +38,9 @@ if TYPE_CHECKING:
 _POINTS = ("nblock", "ncontact", "nslvnod", "nblockanal", "nblockedge", "numdeftfv")
 #: What a child process says at the end: the routine came back; it gave a status of failure.
 _RETURNED, _FAILED = b"\0", b"\1"
+#: Seconds between two looks at a child over its time; by the clock it may take so many times as
+#: long as it may compute.
+_LOOK, _PATIENCE = 0.05, 10.0
 
 
 @dataclass(frozen=True)
@@ -214,12 +218,17 @@ def _tell(writer: int, text: str) -> None:
 
 
 def _ended(child: int, reader: int, seconds: float) -> Ended:
-    """Waits for the child, ends it after `seconds`."""
-    limit, words, late = time.monotonic() + seconds, b"", False
+    """Waits for the child, ends it after `seconds` of computing; of waiting it may have more, since
+    the machine may be busy with other things."""
+    start, words, late = time.monotonic(), b"", False
     while not late:
-        late = not select.select([reader], [], [], max(0.0, limit - time.monotonic()))[0]
-        if late:
-            os.kill(child, signal.SIGKILL)
+        left = start + seconds - time.monotonic()
+        if not select.select([reader], [], [], left if left > 0.0 else _LOOK)[0]:
+            waited = time.monotonic() - start
+            computed = processor_time(child)
+            late = computed is None or computed > 0.9 * seconds or waited > _PATIENCE * seconds
+            if late:
+                os.kill(child, signal.SIGKILL)
         elif not (more := os.read(reader, 1 << 16)):
             break
         else:

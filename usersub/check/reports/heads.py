@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from usersub import abi
 from usersub.check.reports.report import Head, Value
+from usersub.check.words import around_in_words
 from usersub.errors import Error
 
 if TYPE_CHECKING:
@@ -91,8 +92,13 @@ def _values(subject: Subject) -> list[Value]:
     }
     if subject.interface.name == "fric_coef":
         shown["anisotropic"] = "yes" if subject.anisotropic else "no"
+    if _places(subject):
+        shown["names, steps"] = _places(subject)
     words = {"props": "properties", "states": "state variables", "fields": "field variables"}
-    made = [Value(words.get(k, k), v, origin.get(k, "default")) for k, v in shown.items()]
+    made = [
+        Value(words.get(k, k), v, origin.get(k.partition(",")[0], "default"))
+        for k, v in shown.items()
+    ]
     scales = []
     for entry in fields(subject.scales):
         value = getattr(subject.scales, entry.name)
@@ -103,6 +109,18 @@ def _values(subject: Subject) -> list[Value]:
         scales.append(f"{entry.name} {number}" + (f" [{said}]" if said else ""))
     made.append(Value("scales", ", ".join(scales), origin.get("scales", "default")))
     return made
+
+
+#: Names and step number where nothing asks for others.
+_ORDINARY = "interaction 'CHECKED' in step 1"
+
+
+def _places(subject: Subject) -> str:
+    """Names and step numbers at which the routine was run, where there are several or others than
+    the ordinary ones."""
+    places = (subject.around, *subject.others)
+    said = [", ".join(around_in_words(p.names, p.step_numbers)) or _ORDINARY for p in places]
+    return "" if said == [_ORDINARY] else "; ".join(said)
 
 
 def _numbers(values: tuple[float, ...]) -> str:

@@ -90,6 +90,7 @@ class CoefficientRun(Run):
                 arrays[name] = 0.5 * pair[0] + 0.5 * pair[1]
         coefficient = driver.evaluate(
             time_increment=step.dt,
+            step=self.step_number(index),
             **self._put(**{k: v for k, v in arrays.items() if k in driver.layout.ports}),
         )
         return Answer(

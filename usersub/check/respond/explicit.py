@@ -68,7 +68,7 @@ class ExplicitRun(Run):
             put[name] = np.asfortranarray(arrays[name][..., :1], dtype=self.real)
         if step.area is not None:
             put["area"] = self._area(np.array(step.area, dtype=float))
-        response = driver.step(step.dt, **put)
+        response = driver.step(step.dt, step=self.step_number(index), **put)
         force = np.asarray(response.force, dtype=float)
         state = driver.state["state"] if "state" in driver.state else None
         if state is not None and self.surfaces:

@@ -41,6 +41,7 @@ class Run(ABC):
         """Settings of the scene."""
         subject, case = self.subject, self.case
         props = subject.props if case.props is None else case.props
+        interaction, secondary, main = case.names or subject.around.names
         common = {
             "points": case.points,
             "props": props,
@@ -48,9 +49,16 @@ class Run(ABC):
             "fields": subject.fields,
             "temperatures": int(subject.temperatures),
             "precision": subject.precision,
-            "interaction": "CHECKED",
+            "interaction": interaction,
+            "secondary": secondary,
+            "main": main,
         }
         return {**common, **own, **self.options}
+
+    def step_number(self, index: int) -> int:
+        """Number of the analysis step that increment `index` is in."""
+        numbers = self.case.step_numbers or self.subject.around.step_numbers
+        return numbers[min(index, 1)]
 
     def observed(self) -> Observed:
         """What a checked driver saw in the last step."""
@@ -78,7 +86,7 @@ class Run(ABC):
         """Goes on from a saved state of the driver, which was made before step number `step`."""
         self.driver.state.load(saved)
 
-    def _put(self, **arrays: np.ndarray) -> dict[str, np.ndarray]:
+    def _put(self, **arrays: np.ndarray) -> dict[str, Any]:
         """Arrays with the point last, in the order of the driver, as the driver wants them."""
         return {
             name: np.asfortranarray(a[..., self.order], dtype=self.real)

@@ -28,7 +28,7 @@ class StandardRun(Run):
     def __init__(self, subject: Subject, case: Case, options: dict[str, Any]) -> None:
         super().__init__(subject, case, options)
         directions = case.directions
-        own = {
+        own: dict[str, Any] = {
             "dimension": directions + 1,
             "friction_directions": directions,
             "temperature_tangent": int(subject.temperatures),
@@ -65,7 +65,7 @@ class StandardRun(Run):
         if step.multiplier is not None:
             arrays["multiplier"] = turn @ np.array(step.multiplier, dtype=float).T
         self._seen = None
-        driver.begin_increment(step.dt)
+        driver.begin_increment(step.dt, step=self.step_number(index))
         try:
             driver.bind(**self._put(**arrays))
             for _ in range(max(step.iterations, 1)):
@@ -83,7 +83,7 @@ class StandardRun(Run):
 
     def ready(self, index: int) -> None:
         self.step(index)
-        self.driver.begin_increment(self.case.steps[index].dt)
+        self.driver.begin_increment(self.case.steps[index].dt, step=self.step_number(index))
 
     def observed(self) -> Observed:
         return self._seen or super().observed()

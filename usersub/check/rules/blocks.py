@@ -10,6 +10,7 @@ from usersub.check import cases
 from usersub.check.case import Case
 from usersub.check.respond.answer import Answer
 from usersub.check.rule import EXPLICIT, CannotCheck, Finding, NotApplicable, rule
+from usersub.check.rules import indices
 from usersub.check.rules.words import first_unlike, value_at
 from usersub.check.subject import Subject
 
@@ -34,7 +35,7 @@ def _blocks(subject: Subject) -> Iterator[Case]:
     interfaces=EXPLICIT,
     cases=_blocks,
 )
-def permute(subject: Subject, case: Case) -> str | None:
+def permute(subject: Subject, case: Case) -> Finding | None:
     """Other orders of the points, same bits."""
     straight = _answers(subject, case)
     n = case.points
@@ -42,7 +43,8 @@ def permute(subject: Subject, case: Case) -> str | None:
         shuffled = subject.respond(case.but(order=order))
         found = _unlike(straight, shuffled)
         if found:
-            return f"in the order {_counted(order)} of the points {found}"
+            detail = f"in the order {_counted(order)} of the points {found}"
+            return Finding(detail, hint=indices.own_point(subject))
     return None
 
 
@@ -53,13 +55,14 @@ def permute(subject: Subject, case: Case) -> str | None:
     interfaces=EXPLICIT,
     cases=_blocks,
 )
-def split(subject: Subject, case: Case) -> str | None:
+def split(subject: Subject, case: Case) -> Finding | None:
     """Other block sizes, same bits."""
     whole = _answers(subject, case)
     for size in range(1, min(case.points, 4)):
         found = _unlike(whole, subject.respond(case, block=size))
         if found:
-            return f"in blocks of {size} instead of {case.points} points {found}"
+            detail = f"in blocks of {size} instead of {case.points} points {found}"
+            return Finding(detail, hint=indices.own_point(subject))
     return None
 
 

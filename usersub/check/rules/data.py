@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -11,10 +10,8 @@ from usersub.check import cases
 from usersub.check.probing.watching import MEMORY, watch
 from usersub.check.rule import CannotCheck, Finding, NotApplicable, rule
 from usersub.check.rules.words import first_unlike, value_at
-from usersub.check.source import arguments, statics
-from usersub.check.source.again import Warned
+from usersub.check.source import arguments, constants, statics, unset
 from usersub.check.subject import Subject
-from usersub.errors import Error
 
 _COMPILED = ("c", "c++", "fortran", "library")
 
@@ -31,8 +28,9 @@ LARGE = 16 << 20
     languages=_COMPILED,
 )
 def shared(subject: Subject) -> Iterator[Finding]:
-    """Writable data that the routine can come to touch; constant tables are none."""
-    found = statics.of_routine(subject)
+    """Writable data that the routine can come to touch; constant tables are none, and a COMMON
+    block that BLOCK DATA fills and nothing changes neither."""
+    found = [s for s in statics.of_routine(subject) if not constants.constant(subject, s)]
     if not found:
         return
     upper = subject.interface.name.upper()
@@ -79,8 +77,8 @@ def size(subject: Subject) -> Iterator[Finding]:
 def uninitialised(subject: Subject) -> Iterator[Finding]:
     """Runs on stacks with different patterns, then builds in which variables begin with different
     values. A warning alone is no fault: the compiler does not know which branches can be taken."""
-    warned = _warned(subject)
-    names = _named(warned)
+    warned = unset.warned(subject)
+    names = unset.named(warned)
     named = f"; the compiler names {names}" if names else ""
     sound = True
     for case in cases.common(subject):
@@ -120,6 +118,8 @@ def _by_first_values(subject: Subject, named: str, where: str) -> Finding | None
         if watch(pattern, case, MEMORY) is not None:
             return None
         ones, others = (v.respond(case, enforced=True) for v in (zero, pattern))
+        if first_unlike(ones, zero.respond(case, enforced=True)) is not None:
+            return None  # something lasts, in a file or in an array of the solver's
         failures = ones[-1].failure, others[-1].failure
         if (failures[0] is None) != (failures[1] is None):
             return Finding(
@@ -144,22 +144,3 @@ def _by_first_values(subject: Subject, named: str, where: str) -> Finding | None
             {"step": step, "point": point},
         )
     return None
-
-
-_NAME = re.compile(r"'([^']+)' (?:is|may be) used uninitialized")
-
-
-def _warned(subject: Subject) -> list[Warned]:
-    """Uses of unset variables that the compiler sees, in the source's order."""
-    try:
-        source = arguments.source_of(subject)
-        found = source.warnings("-O2", "-Wall", "-Wuninitialized", "-Wmaybe-uninitialized")
-    except (CannotCheck, NotApplicable, Error):
-        return []
-    wanted = ("-Wuninitialized", "-Wmaybe-uninitialized")
-    return sorted((w for w in found if w.option in wanted), key=lambda w: w.line)
-
-
-def _named(warned: list[Warned]) -> str:
-    names = [f"{m[1]} ({w.where})" for w in warned if (m := _NAME.search(w.words))]
-    return ", ".join(dict.fromkeys(names))

@@ -75,8 +75,8 @@ def rotation(subject: Subject, case: Case) -> Finding | None:
         step, name, one, other = found
         if _at_a_jump(subject, case, ones):
             continue
-        # the explicit interfaces have one direction, that of the slip, and so no anisotropy
-        why = preferred_directions(subject) if subject.interface.name == "fric" else ""
+        standard = subject.interface.name == "fric"
+        why = preferred_directions(subject) if standard else _by_direction(subject)
         if why or subject.anisotropic:
             raise NotApplicable(why or "the routine gives two coefficients")
         if subject.interface.name in COEFFICIENT and _prefers(subject, case):
@@ -90,6 +90,43 @@ def rotation(subject: Subject, case: Case) -> Finding | None:
             figures={"step": step, "point": 0, "angle": angle},
         )
     return None
+
+
+#: Angles and sizes of the motion at which friction is compared, and the least share that an
+#: anisotropic law leaves in its weakest direction.
+_WAYS, _SIZES, _LEAST_SHARE = (0.0, 0.6, 1.3, 2.2, 2.9), (0.1, 1.0, 10.0), 0.1
+
+
+def _by_direction(subject: Subject) -> str:
+    """Words on a law of the explicit interfaces whose friction differs between directions in the
+    model by factors that do not depend on the size of the motion, and acts along the slip: an
+    anisotropic law, and no component taken for the whole; "" for others."""
+    if subject.interface.name not in FRICTION:
+        return ""
+    shares = []
+    for size in _SIZES:
+        found = []
+        for angle in (*_WAYS, *(a + math.pi for a in _WAYS)):
+            along = np.array([math.cos(angle), math.sin(angle)])
+            force = slide(subject, straight(subject, angle, (size,)), need=False)[-1].friction
+            if force is None or abs(along[0] * force[1, 0] - along[1] * force[0, 0]) > 1e-9 * abs(
+                along @ force[:, 0]
+            ):
+                return ""
+            found.append(float(along @ force[:, 0]))
+        if min(found) <= 0.0:
+            return ""
+        shares.append(np.array(found) / max(found))
+    half = len(_WAYS)
+    same = all(np.allclose(s, shares[0], rtol=1e-6) for s in shares)
+    both = np.allclose(shares[0][:half], shares[0][half:], rtol=1e-6)
+    least = float(shares[0].min())
+    if not (same and both and _LEAST_SHARE < least):
+        return ""
+    return (
+        f"friction is along the slip and down to {least:.3g} of its largest value, by the "
+        "direction in the model alone: the law is anisotropic"
+    )
 
 
 def _at_a_jump(subject: Subject, case: Case, ones: list[Answer]) -> bool:
@@ -264,8 +301,12 @@ def _unlike(
         if pairs[0][0] is None or pairs[0][1] is None:
             continue
         size = max(float(np.max(np.abs(a))) for a, _ in pairs)
+        motion = float(np.max(np.abs([s.motion for s in case.steps])))
         if name == "dslip":  # a difference of motions: their rounding, not its own
-            size = max(size, float(np.max(np.abs([s.motion for s in case.steps]))))
+            size = max(size, motion)
+        elif name in ("sed", "sfd"):  # work: likewise that of friction along the motion
+            forces = (float(np.max(np.abs(a.friction))) for a in ones if a.friction is not None)
+            size = max(size, motion * max(forces, default=0.0))
         allowed = tolerance(subject) * size
         for step, (a, b) in enumerate(pairs):
             if resting and not any(any(m) for m in case.steps[step].motion):

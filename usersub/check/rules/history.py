@@ -74,9 +74,21 @@ def iterations(subject: Subject, case: Case) -> Finding | None:
         raise NotApplicable("LM = 1: the host solves for the constraint over the iterations")
     if _close(once, more):
         return None
-    return _told("after three iterations", once, more) or _failed_after(
+    found = _told("after three iterations", once, more) or _failed_after(
         "in the second or third iteration", more
     )
+    return None if found is None else replace(found, hint=_iteration_hint(subject))
+
+
+def _iteration_hint(subject: Subject) -> str:
+    """What carries something from one iteration to the next besides variables that are kept."""
+    if subject.interface.name != "fric":
+        return _STATE
+    last = (
+        "DSLIP and LM hold on entry what the routine returned in the last iteration: friction must "
+        "not depend on them"
+    )
+    return f"{last}; {_STATE}" if subject.states else last
 
 
 @rule(
@@ -92,14 +104,14 @@ def save_load(subject: Subject, case: Case) -> Finding | None:
     def go_on(saved: bytes) -> list[Answer] | str:
         quiet = subject.but(tell=None)
         try:
-            run = run_of(quiet, case, enforced=1)
+            run = run_of(quiet, case, enforced=True)
             run.load(saved, middle)
             return [run.step(k) for k in range(middle, len(case.steps))]
         except Error as error:
             return str(error)
 
     with FreshProcess(go_on) as fresh:
-        run = run_of(subject, case, enforced=1)
+        run = run_of(subject, case, enforced=True)
         try:
             for k in range(middle):
                 run.step(k)

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from usersub.laws.description import Law
 
 
+#: Of so many properties one has extreme motions, too.
+_EXTREME_EVERY = 10
+
+
 def _cases(subject: Subject) -> Iterator[Case]:
     law = _law(subject)
     try:
@@ -33,6 +37,9 @@ def _cases(subject: Subject) -> Iterator[Case]:
     yield from cases.common(subject)
     for seed, values in enumerate(law_samples.props(law), 1):
         yield from law_samples.histories(subject, law, values, seed)
+        # Forces that are products of motions; rates that overflow nobody could pass on.
+        if law.kind == "bristle" and seed % _EXTREME_EVERY == 1:
+            yield from law_samples.extremes(subject, law, values, seed)
 
 
 def _law(subject: Subject) -> Law:
@@ -54,7 +61,7 @@ def _law(subject: Subject) -> Law:
     seconds=30.0,
 )
 def agrees(subject: Subject, case: Case) -> Finding | None:
-    """Compares with the law in another language, and with its reference values."""
+    """Compares with the law as it is shipped, and with its reference values."""
     law = _law(subject)
     ours = law_truth.sized(subject, law, case)
     exact = _exact_values(subject, law, case)

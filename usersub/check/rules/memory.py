@@ -11,6 +11,7 @@ from usersub.check.case import Case
 from usersub.check.probing.watching import MEMORY, watch
 from usersub.check.respond import run_of
 from usersub.check.rule import CannotCheck, Finding, NotApplicable, rule
+from usersub.check.rules import indices
 from usersub.check.subject import Subject
 from usersub.errors import Error
 
@@ -55,7 +56,7 @@ def _of_argument(subject: Subject, case: Case, names: tuple[str, ...] | None) ->
     own = found.argument in (*_PROPERTIES, *_STATE)
     if own if names is None else found.argument not in names:
         return None
-    return found.finding("compare the dimension with the counts that the routine is given")
+    return found.finding(indices.beyond(subject, found.argument, found.sentence))
 
 
 def _if_known(subject: Subject, what: str, found: Finding | None) -> Finding | None:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import numpy as np
 
 from usersub.check import cases
@@ -13,6 +16,10 @@ from usersub.check.rule import Finding, rule
 from usersub.check.subject import Subject
 from usersub.errors import Error
 from usersub.routine.routine import UNUSED
+
+#: Adding zero leaves the mark too, so that it is not said that nothing was written.
+_LEFT = re.compile(r"did not write (\S+)")
+_SET = "set it on every path through the routine, whatever it holds on entry"
 
 _WRITTEN = "arguments that the manual page says have to be defined"
 
@@ -27,7 +34,8 @@ def written(subject: Subject, case: Case) -> Finding | None:
     """Outputs hold a mark before the call."""
     found = watch(subject, case, ("not written",), enforced=False)
     if found is not None:
-        return found.finding("set it on every path through the routine")
+        finding = found.finding(_SET)
+        return replace(finding, detail=_LEFT.sub(r"left \1 as it was on entry", finding.detail))
     if subject.interface.name in ("vfric", "vfriction"):
         return _force_left(subject, case)
     return _tangent_left(subject, case) if subject.interface.name == "fric" else None

@@ -142,7 +142,10 @@ def _against_reals(subject: Subject, source: Source, warned: list[Warned]) -> It
         return
     for one in single.cut(source, warned):
         text_of = single.with_real(source, one) if one.real_name else None
-        if text_of is not None and (changed := _changed(subject, text_of)):
+        changed = None if text_of is None else _changed(subject, text_of)
+        if text_of is not None and changed is None and subject.origin.get("props") != "given":
+            changed = _changed_between(subject, text_of)
+        if changed:
             name = one.name.upper()
             yield _integer(
                 changed,
@@ -157,11 +160,16 @@ def _against_reals(subject: Subject, source: Source, warned: list[Warned]) -> It
 def _integer(changed: tuple[Case, float, float], reason: str, where: str, wanted: str) -> Finding:
     case, ours, theirs = changed
     return Finding(
-        f"{reason}; the result is {number(ours)} instead of {number(theirs)}",
+        f"{reason}; the result is {number(ours)} instead of {number(theirs)}{_with(case)}",
         case,
         where,
         f"Write {wanted}.",
     )
+
+
+def _with(case: Case) -> str:
+    listed = ", ".join(f"{p:g}" for p in case.props or ())
+    return f" with the properties {listed}" if listed else ""
 
 
 def _changed(subject: Subject, text: str) -> tuple[Case, float, float] | None:
@@ -178,6 +186,38 @@ def _changed(subject: Subject, text: str) -> tuple[Case, float, float] | None:
         if size > 0 and difference.max() > _CUT * size:
             at = int(difference.argmax())
             return case, float(one[at]), float(two[at])
+    return None
+
+
+#: What is added to whole properties that were found out, and how much more.
+_BETWEEN, _BEYOND = 0.37, 1e-3
+
+
+def _changed_between(subject: Subject, text: str) -> tuple[Case, float, float] | None:
+    """As `_changed`, with properties between whole numbers, which the search for values may have
+    found since nothing else gave friction. A switch has no values in between: with these a real
+    one does the same throughout."""
+    for index, value in enumerate(subject.props):
+        if value != round(value) or value == 0.0:
+            continue
+        moved, beyond = (
+            subject.but(props=(*subject.props[:index], value + d, *subject.props[index + 1 :]))
+            for d in (_BETWEEN, _BETWEEN + _BEYOND)
+        )
+        real = arguments.variant(moved, text=text)
+        more = arguments.variant(beyond, text=text)
+        if real is None or more is None:
+            return None
+        for case in digits.places(subject):
+            answers = [digits.answer(s, case) for s in (moved, beyond, real, more)]
+            if any(a is None for a in answers):
+                continue
+            one, two, three, four = (np.asarray(a) for a in answers)
+            size = float(np.abs(three).max())
+            at = int(np.abs(one - three).argmax())
+            cut = np.array_equal(one, two) and abs(one[at] - three[at]) > _CUT * size
+            if cut and abs(four[at] - three[at]) > _CUT * size:
+                return case.but(props=moved.props), float(one[at]), float(three[at])
     return None
 
 

@@ -156,7 +156,7 @@ def output(subject: Subject) -> Iterator[Finding]:
     """Bytes that the process reads and writes, over calls with the same input."""
     if subject.routine is None:
         raise CannotCheck(f"the routine could not be loaded: {subject.failure}")
-    found = []
+    found: list[traffic.Traffic] = []
     for load, slip in _INPUTS:
         scales = subject.scales
         other = replace(scales, load=load * scales.load, slip=slip * scales.slip)
@@ -190,6 +190,7 @@ def _later(call: RawCall, increment: int) -> None:
         call[name][...] = increment
     for name in names & {"jFlags", "iData"}:
         call[name][1] = increment
+    call.start = call.copies()
 
 
 #: Loads and motions in units of the scales.

@@ -12,8 +12,9 @@ from usersub.check import cases
 from usersub.check.case import Case
 from usersub.check.probing.elsewhere import FreshProcess
 from usersub.check.respond.answer import Answer
-from usersub.check.rule import CannotCheck, Finding, rule
+from usersub.check.rule import CannotCheck, Finding, NotApplicable, rule
 from usersub.check.rules.words import failed, first_unlike, value_at
+from usersub.check.source import statics, unset
 from usersub.check.subject import Subject
 
 HINT = (
@@ -43,7 +44,7 @@ def same(subject: Subject, case: Case) -> Finding | None:
     """Runs the case twice, from the start, in the same process."""
     first = _answers(subject, case)
     second = subject.respond(case)
-    return told("run a second time,", first, second)
+    return _explained(subject, told("run a second time,", first, second))
 
 
 @rule(
@@ -73,8 +74,27 @@ def order(subject: Subject, case: Case) -> Finding | None:
             after = process.finish(other)
             found = None if after is None else told(f"after {what}", first, after)
             if found is not None:
-                return found
+                return _explained(subject, found)
     return None
+
+
+def _explained(subject: Subject, found: Finding | None) -> Finding | None:
+    """The finding with the hint that fits a routine that has no data of its own, too."""
+    if found is None:
+        return None
+    try:
+        if statics.of_routine(subject):
+            return found
+    except (CannotCheck, NotApplicable):
+        return found
+    warned = unset.warned(subject)
+    if not warned:
+        return found  # a file, or an array of the solver's, may be what lasts
+    hint = (
+        "it has no data that outlive a call: set every local variable before it is used; the "
+        f"compiler names {unset.named(warned)}"
+    )
+    return replace(found, hint=hint, where=found.where or warned[0].where)
 
 
 def _others(subject: Subject, case: Case) -> dict[str, Case]:

@@ -132,7 +132,10 @@ def by_pressure(subject: Subject, case: Case) -> Finding | None:
         return None
     secant = base.friction[:, 0] / load if load else 0.0
     if np.any(given) and np.allclose(given[:, 0], secant, rtol=1e-6, atol=0):
-        hint = "DDTDDP is mu alone; add p dmu/dp, since the coefficient depends on the pressure"
+        hint = (
+            "DDTDDP is the stress over the pressure, as for a constant mu; add p dmu/dp if the "
+            "coefficient depends on the pressure, and the same for what else does (a stiffness)"
+        )
         return replace(found, hint=hint)
     return found
 

@@ -116,11 +116,27 @@ def _wrong(
             max(abs(at.temperature), 1.0),
         )
         checks.append(("slot 3", "the temperature", slots[2], found, 1.0))
+    wanted = [float(right.value[0]) * per for _, _, _, right, per in checks]
     for slot, by, told, right, per in checks:
         finding = _compared(slot, by, told, right, per, which, slots)
         if finding is not None:
-            return finding
+            return replace(finding, hint=finding.hint + _elsewhere(checks, wanted, slots))
     return None
+
+
+def _elsewhere(checks: list, wanted: list[float], slots: np.ndarray) -> str:
+    """Which derivative stands in the slot of another, in words."""
+    places = {"the slip rate": 0, "the pressure": 1, "the temperature": 2}
+    right = {by: w for (_, by, *_), w in zip(checks, wanted, strict=True) if by in places and w}
+    for by, value in right.items():
+        for other, slot in places.items():
+            fits = abs(float(slots[slot]) - value) <= _RIGHT * abs(value)
+            if other != by and fits and slots[places[by]] != slots[slot]:
+                return (
+                    f"; what stands in slot {slot + 1} is the derivative by {by} and belongs into "
+                    f"slot {places[by] + 1}"
+                )
+    return ""
 
 
 def _compared(

@@ -33,7 +33,7 @@ _TURNS = 20
 )
 def threads(subject: Subject) -> Iterator[Finding]:
     """Two calls meet behind each write to data that outlives a call; then many calls at random."""
-    shared = ()
+    shared: tuple[str, ...] = ()
     if subject.file is not None and subject.file.code is not None:
         build = subject.file.code.build(subject.precision)
         if build.writes_units:

@@ -15,12 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from usersub.check.case import Case
+from usersub.check.clocks import processor_time
 from usersub.check.running.inside import Channel
 
 #: Bytes for the case under way, and those of the output that are kept.
 CASE_BYTES, _KEPT = 1 << 18, 4000
 #: By the clock, a child may take this many times the time that it may compute.
-_PATIENCE = 3.0
+_PATIENCE = 10.0
 #: Looks one after the other at which an idle child over its time counts as one that never ends.
 _IDLE_LOOKS = 5
 
@@ -130,10 +131,8 @@ class Child:
 
     def _computed(self) -> float:
         """Processor time so far, seconds; that of the clock where the system does not tell."""
-        try:
-            return time.clock_gettime((~self.process << 3) | 2)  # as clock_getcpuclockid makes it
-        except OSError:
-            return self.computed_before + self.seconds
+        found = processor_time(self.process)
+        return self.computed_before + self.seconds if found is None else found
 
     def ended(self) -> bool:
         """Whether the process has ended; it stays in the table of processes."""

@@ -60,12 +60,15 @@ def explain(subject: Subject, results: dict[str, Result], ids: Iterable[str]) ->
 def _follow(subject: Subject, results: dict[str, Result], ids: Iterable[str]) -> None:
     """Failures that follow, at whatever case, from results that are not repeated."""
     kept, unset = _failed(results, _REPEAT), _failed(results, _UNSET_RULE)
-    if kept and unset:  # only data that outlive a call can be kept
-        kept = _keeps(subject)
-        unset = not kept
-    cause, following = (_REPEAT, _OF_KEPT) if kept else (_UNSET_RULE, _OF_UNSET)
     if not (kept or unset):
         return
+    keeps = kept and _keeps(subject)
+    if kept and unset:  # only data that outlive a call can be kept
+        kept, unset = keeps, not keeps
+    cause = _REPEAT if kept else _UNSET_RULE
+    following: tuple[str, ...] = _OF_KEPT if kept else _OF_UNSET
+    if kept and not keeps and "local variable" in results[_REPEAT].hint:  # chance
+        following += ("repeat.order", "history")
     for id in ids:
         follows = id in following or results[id].group in following
         if follows and id != cause and _failed(results, id):

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from usersub.check.rule import (
+    FAIL,
     NOT_APPLICABLE,
+    PASS,
     SKIP,
     CannotCheck,
     Finding,
@@ -17,6 +20,7 @@ from usersub.check.rule import (
     as_finding,
 )
 from usersub.check.running.verdicts import finding_as_data
+from usersub.check.words import around_in_words
 from usersub.errors import Error
 
 if TYPE_CHECKING:
@@ -24,17 +28,58 @@ if TYPE_CHECKING:
     from usersub.check.running.inside import Channel
     from usersub.check.subject import Subject
 
+#: Groups and rules for which names and step numbers make no difference, or are no reason to judge.
+_ANYWHERE = (
+    "signature",
+    "symbols",
+    "data",
+    "friction",
+    "law",
+    "precision.source",
+    "process.output",
+)
+#: Share of a rule's time after which it is not looked at under further names.
+_SHARE = 0.1
+
 
 def look(rule: Rule, subject: Subject, child: Channel) -> None:
     """Looks at a rule, says the first finding, then the same at smaller and smaller cases."""
     subject = subject.but(tell=child.tell)
-    finding = _say(lambda: next(iter(rule.look(subject) or ()), None), child)
+    begin = time.monotonic()
+    verdict = _look_at(rule, subject, child)
+    once = rule.group in _ANYWHERE or rule.id in _ANYWHERE
+    for around in () if once else subject.others:
+        if verdict == FAIL or time.monotonic() - begin > _SHARE * rule.seconds:
+            return
+        if rule.id == "history.cut-back" and len(set(around.step_numbers)) > 1:
+            continue  # half an increment would be in another step than the whole
+        there = _look_at(rule, subject.but(around=around), child, quiet=True)
+        if there == PASS and verdict != PASS:
+            child.say({"verdict": {"kind": PASS, "detail": ""}})
+        verdict = there if there in (PASS, FAIL) else verdict
+
+
+def _look_at(rule: Rule, subject: Subject, child: Channel, quiet: bool = False) -> str:
+    """Looks at a rule at one place; the verdict. If `quiet`, only a finding is said."""
+    finding, verdict = _say(
+        lambda: next(iter(rule.look(subject) or ()), None), child, subject, quiet
+    )
     if finding is None or finding.case is None or rule.judge is None:
-        return
+        return verdict
     from usersub.check.running.shrink import smaller
 
     for found in smaller(rule, subject, finding):
-        child.say({"finding": finding_as_data(found)})
+        child.say({"finding": finding_as_data(_placed(found, subject))})
+    return verdict
+
+
+def _placed(finding: Finding, subject: Subject) -> Finding:
+    """A finding with the names and step numbers at which it was made, if not the ordinary ones."""
+    parts = around_in_words(subject.around.names, subject.around.step_numbers)
+    if not parts:
+        return finding
+    case = None if finding.case is None else subject.placed(finding.case)
+    return replace(finding, detail=f"with {', '.join(parts)}: {finding.detail}", case=case)
 
 
 def look_at_all(
@@ -71,8 +116,11 @@ def look_at_case(
         told.under_way(case)
         return as_finding(rule.judge(told, case), case)
 
-    told = subject if child is None else subject.but(tell=child.tell)
-    return found() if child is None else _say(found, child)
+    told = subject if case is None else subject.at(case)
+    if child is None:
+        return found()
+    told = told.but(tell=child.tell)
+    return _say(found, child, told)[0]
 
 
 def run_case(subject: Subject, case: Case, child: Channel) -> None:
@@ -80,21 +128,26 @@ def run_case(subject: Subject, case: Case, child: Channel) -> None:
     subject.but(tell=child.tell).respond(case)
 
 
-def _say(find: Any, child: Channel) -> Finding | None:
+def _say(
+    find: Callable[[], Finding | None], child: Channel, subject: Subject, quiet: bool = False
+) -> tuple[Finding | None, str]:
+    """Says what is found, and the verdict; if `quiet`, only what is found."""
     try:
         finding = find()
     except NotApplicable as reason:
-        child.say({"verdict": {"kind": NOT_APPLICABLE, "detail": str(reason)}})
-    except CannotCheck as reason:
-        _say_skip(str(reason), child)
-    except Error as error:
-        words = f"it could not be checked: {error}"
-        _say_skip(" ".join(words.split()), child)
-    else:
-        if finding is not None:
-            child.say({"finding": finding_as_data(finding)})
-        return finding
-    return None
+        if not quiet:
+            child.say({"verdict": {"kind": NOT_APPLICABLE, "detail": str(reason)}})
+        return None, NOT_APPLICABLE
+    except (CannotCheck, Error) as error:
+        plain = isinstance(error, CannotCheck)
+        words = str(error) if plain else f"it could not be checked: {error}"
+        if not quiet:
+            _say_skip(" ".join(words.split()), child)
+        return None, SKIP
+    if finding is None:
+        return None, PASS
+    child.say({"finding": finding_as_data(_placed(finding, subject))})
+    return finding, FAIL
 
 
 def _say_skip(words: str, child: Channel) -> None:

@@ -7,7 +7,7 @@ import re
 from dataclasses import asdict, fields
 from typing import TYPE_CHECKING, Any
 
-from usersub.check.subject import Scales
+from usersub.check.subject import Around, Scales
 from usersub.errors import LoadError
 
 if TYPE_CHECKING:
@@ -49,6 +49,10 @@ def reproduction(subject: Subject, rule: str, case: Case | None) -> str:
             if getattr(subject, name) != default or name == "props"
         ]
         words.append(f"scales={_scales(subject.scales)!r}")
+        if case is None and subject.others:
+            words.append(f"others={[asdict(a) for a in subject.others]!r}")
+        if subject.around != Around():
+            words.append(f"around={asdict(subject.around)!r}")
     return f"{_IMPORTS}\ncheck.reproduce({', '.join(words)})"
 
 
@@ -86,8 +90,9 @@ def reproduce(
         rule: identifier of the rule.
         case: the case; a rule that is not about single cases is run as a whole.
         interface, precision, generation, law: as in `check`.
-        given: props, states, fields, temperatures, anisotropic, scales (values by name). If
-            props are given, whatever else is not has its default and is not found out.
+        given: props, states, fields, temperatures, anisotropic, scales (values by name), around,
+            others (names and step numbers). If props are given, whatever else is not has
+            its default and is not found out.
         apart: False looks in this process, where a debugger can follow, and a crash is a crash.
 
     Returns:
@@ -107,7 +112,7 @@ def reproduce(
 
         raise LoadError(no_such_rule(rule, known))
     if "props" in given:
-        given = {**_DEFAULTS, "scales": asdict(Scales()), **given}
+        given = {**_DEFAULTS, "scales": asdict(Scales()), "around": Around(), **given}
         given.pop("law")
     unknown = set(given) - set(GIVEN)
     if unknown:

@@ -237,6 +237,8 @@ class Session:
         )
         if result.verdict == FAIL:
             case = result.case if rule.judge is not None else None
+            if case is None and result.case is not None and result.case.props is not None:
+                subject = subject.but(props=result.case.props)  # it shows with these alone
             changes["reproduction"] = reproduction(subject, rule.id, case)
         return result.but(**changes)
 

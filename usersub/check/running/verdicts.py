@@ -9,7 +9,7 @@ from typing import Any
 
 from usersub.check.case import Case
 from usersub.check.reports.report import Result
-from usersub.check.rule import FAIL, NOT_APPLICABLE, PASS, SKIP, Finding, Rule
+from usersub.check.rule import FAIL, PASS, SKIP, Finding, Rule
 from usersub.check.running import isolate
 from usersub.check.running.isolate import Outcome
 
@@ -64,8 +64,7 @@ def result_of(rule: Rule, outcome: Outcome) -> Result:
         return made.but(output=outcome.output if rule.group == "process" else "")
     verdict = _last(outcome, "verdict")
     if verdict is not None:
-        known = SKIP if verdict["kind"] == SKIP else NOT_APPLICABLE
-        return result(rule, known, str(verdict["detail"]), outcome.seconds)
+        return result(rule, verdict["kind"], str(verdict["detail"]), outcome.seconds)
     error = _last(outcome, "error")
     if error is not None:
         return result(rule, SKIP, error_words(error), outcome.seconds).but(output=error["trace"])

@@ -39,7 +39,10 @@ def of_calls(call: RawCall, seconds: float = 5.0) -> Traffic | None:
     if child == 0:
         os.close(reader)
         try:
-            with tempfile.TemporaryDirectory(prefix="usersub-") as folder:
+            with (
+                contextlib.suppress(InterruptedError),
+                tempfile.TemporaryDirectory(prefix="usersub-") as folder,
+            ):
                 os.write(writer, json.dumps(_measure(call, folder)).encode())
         finally:
             os._exit(0)
@@ -88,7 +91,8 @@ def _measure(call: RawCall, folder: str) -> tuple[list[int], list[int]]:
 def _repeat(call: RawCall, times: int) -> None:
     for _ in range(times):
         call.restore()
-        call.run()
+        if call.run() < 0:  # what it says when it refuses is no output of every call
+            raise InterruptedError("the routine raised an exception")
     _flush(call)
 
 

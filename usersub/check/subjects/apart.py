@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from usersub.check.running import isolate
+from usersub.check.subject import Around
 
 if TYPE_CHECKING:
     from usersub.check.running.isolate import Outcome
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
 
 #: What is found out: everything of a subject that is plain data.
 _FOUND = ("props", "states", "fields", "temperatures", "anisotropic", "origin")
+
+#: Seconds in which a routine has to show that it damages memory.
+_PROOF = 3.0
 
 #: Looks at a subject, tells what is known so far, and returns what it found.
 Search = Callable[["Subject", Callable[["Subject"], None]], "Subject"]
@@ -38,6 +42,9 @@ def apart(search: Search, subject: Subject, seconds: float) -> tuple[Subject, st
     outcome = isolate.run(work, seconds)
     for said in outcome.said:
         if "error" in said:
+            so_far = _restored(subject, outcome)
+            if _damages(so_far):
+                return so_far, "the routine touched memory outside of its arguments"
             raise RuntimeError(said["error"]["trace"])
     return _restored(subject, outcome), _why(outcome, seconds)
 
@@ -45,18 +52,41 @@ def apart(search: Search, subject: Subject, seconds: float) -> tuple[Subject, st
 def _plain(subject: Subject) -> dict[str, Any]:
     return {
         "scales": asdict(subject.scales),
+        "around": asdict(subject.around),
+        "others": [asdict(around) for around in subject.others],
         **{name: getattr(subject, name) for name in _FOUND},
     }
 
 
+def _damages(subject: Subject) -> bool:
+    """Whether the routine touches memory that is not its own: a search in the same process may
+    fail at anything then."""
+
+    def work(child: Any) -> None:
+        from usersub.check.subjects.values import path_case, watched
+
+        error, _ = watched(subject, path_case())
+        child.say({"outside": ", of which there " in str(error)})
+
+    return any(said.get("outside") for said in isolate.run(work, _PROOF).said)
+
+
 def _restored(subject: Subject, outcome: Outcome) -> Subject:
-    if not outcome.said:
+    known = [said for said in outcome.said if "props" in said]
+    if not known:
         return subject
-    said = dict(outcome.said[-1])
+    said = dict(known[-1])
     scales = said.pop("scales")
     scales["fields"] = tuple(scales["fields"])
     said["props"] = tuple(said["props"])
+    said["around"] = around_from(said["around"])
+    said["others"] = tuple(map(around_from, said["others"]))
     return subject.but(scales=type(subject.scales)(**scales), **said)
+
+
+def around_from(plain: dict[str, Any]) -> Around:
+    """Names and step numbers from plain data."""
+    return Around(**{name: tuple(value) for name, value in plain.items()})
 
 
 def _why(outcome: Outcome, seconds: float) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,22 @@ def recognised(path: Path | None) -> str:
         if own.is_file() and own.read_bytes() == path.read_bytes():
             return name
     return ""
+
+
+def recognised_language(subject: Subject, name: str) -> str:
+    """Language in which the subject is the file of the built-in law `name`, or ""."""
+    if subject.path is None:
+        return ""
+    return _language(subject.path, name)
+
+
+@cache
+def _language(path: Path, name: str) -> str:
+    from usersub import laws
+
+    if recognised(path) != name:
+        return ""
+    return next(language for language, file in laws.LANGUAGES.items() if file == path.name)
 
 
 def with_example(subject: Subject, name: str, given: set[str]) -> Subject:

@@ -10,6 +10,7 @@ from usersub.check.running import isolate
 from usersub.check.running.verdicts import death_of, error_words
 from usersub.check.subject import Scales
 from usersub.check.subjects import scales, tracing
+from usersub.check.subjects.apart import around_from
 from usersub.check.subjects.targets import GIVEN
 
 if TYPE_CHECKING:
@@ -51,12 +52,19 @@ def prepared(subject: Subject, seconds: float) -> Subject:
 
 
 def _plain(subject: Subject) -> dict[str, Any]:
-    return {**{n: getattr(subject, n) for n in _NAMES}, "scales": asdict(subject.scales)}
+    return {
+        **{n: getattr(subject, n) for n in _NAMES},
+        "scales": asdict(subject.scales),
+        "around": asdict(subject.around),
+        "others": [asdict(around) for around in subject.others],
+    }
 
 
 def _applied(subject: Subject, said: dict[str, Any]) -> Subject:
     values = {name: said[name] for name in _NAMES}
     values["props"] = tuple(values["props"])
+    values["around"] = around_from(said["around"])
+    values["others"] = tuple(map(around_from, said["others"]))
     sizes = dict(said["scales"])
     sizes["fields"] = tuple(sizes["fields"])
     return subject.but(**values, scales=Scales(**sizes))

@@ -14,7 +14,8 @@ from usersub import abi
 from usersub.check.running import isolate
 from usersub.check.running.verdicts import death_of
 from usersub.check.source.meant import meant
-from usersub.check.subject import Scales, Subject
+from usersub.check.subject import Around, Scales, Subject
+from usersub.check.subjects.apart import around_from
 from usersub.errors import AbiError, CompileError, Error, LoadError, SceneError
 from usersub.routine.routine import Routine, RoutineMaker
 
@@ -27,7 +28,7 @@ PRECISIONS = (DOUBLE, SINGLE, BOTH)
 #: Seconds that a Python file may take to run as a module.
 _SECONDS = 20.0
 #: Attributes of a subject that may be given; the rest is found out by running the routine.
-GIVEN = ("props", "states", "fields", "temperatures", "anisotropic", "scales")
+GIVEN = ("props", "states", "fields", "temperatures", "anisotropic", "scales", "around", "others")
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,10 @@ def _given(name: str, value: Any) -> Any:
             return number
         if name == "scales":
             return value if isinstance(value, Scales) else Scales(**value)
+        if name == "around":
+            return value if isinstance(value, Around) else around_from(value)
+        if name == "others":
+            return tuple(v if isinstance(v, Around) else around_from(v) for v in value)
         return bool(value)
     except (TypeError, ValueError) as error:
         expected = {"props": "finite numbers", "scales": "Scales or their values by name"}

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from usersub.check.probing import influence
 from usersub.check.respond.answer import Answer
-from usersub.check.subjects import law_subject, values, wants
+from usersub.check.subjects import around, law_subject, values, wants
 from usersub.check.subjects.apart import apart
 
 if TYPE_CHECKING:
@@ -107,13 +107,22 @@ class _Tracer:
 
     def _found(self, subject: Subject) -> Subject:
         self._tell(subject)
+        if "around" not in self.given:
+            subject = subject.but(others=around.others(subject))
         subject, failure = self._grown(subject)
         if failure is not None and subject.props and "props" not in self.given:
             subject, failure = self._with_other_values(subject, failure)
+        if "around" not in self.given and failure is None:
+            # Without what it needs it fails in the same way whatever the names are.
+            subject, failure = self._grown(subject.but(others=around.others(subject)))
         needs = {name: counted(subject, name) for name in _COUNTED}
         self._tell(subject)
         if self._repeats(subject):
             subject = self._more(subject)
+        subject = around.with_friction(subject)
+        if subject.others:
+            subject = _told(subject, names="they change what the routine does; tried were strings "
+                            "of its source and later steps")  # fmt: skip
         if "props" not in self.given:
             subject = self._valued(subject)
             needs["props"] = max(needs["props"], len(subject.props))
@@ -206,6 +215,16 @@ class _Tracer:
 
     def _failure(self, subject: Subject) -> Error | None:
         """The first failure over the cases that is about sizes, else that of the first case."""
+        first: Error | None = None
+        for number, place in enumerate((subject.around, *subject.others)):
+            at_place = self._failure_at(subject.but(around=place), first is None and not number)
+            if at_place is not None and self._as_wanted(subject, wants.wanted(subject, at_place)):
+                return at_place
+            first = first or at_place
+        return first
+
+    def _failure_at(self, subject: Subject, ordinary: bool) -> Error | None:
+        """As `_failure`, at the subject's own names and step numbers."""
         first = None
         for number, case in enumerate(_cases()):
             error, read = values.watched(subject, case)
@@ -216,7 +235,7 @@ class _Tracer:
             if error is not None:
                 if self._as_wanted(subject, wants.wanted(subject, error)) is not None:
                     return error
-                if number == 0:
+                if number == 0 and ordinary:
                     first = error
         return first
 

@@ -130,6 +130,11 @@ def cost(subject: Subject) -> float:
 
 def matters(subject: Subject, index: int) -> bool:
     """Whether another value of one property changes anything that the routine answers."""
+    places = (subject.around, *subject.others)
+    return any(_matters_at(subject.but(around=a), index) for a in places)
+
+
+def _matters_at(subject: Subject, index: int) -> bool:
     case = path_case()
     present = answers(subject, case)
     for factor in (1.25, 0.5):

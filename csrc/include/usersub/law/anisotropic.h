@@ -71,7 +71,7 @@ static inline void usub_solve_excess(usub_ellipse *e) {
   for (int trial = 0; trial < USUB_MOST_TRIALS; ++trial) {
     usub_try(e, x);
     const double f = fmax(e->size - c, 0) - x, rounding = 4 * DBL_EPSILON * (c + x);
-    if (!(fabs(f) > (x > 0 ? rounding : 0)))
+    if (!(fabs(f) > rounding)) /* an elastic slip that was left at its limit is rounded */
       return;
     if (f > 0) {
       f_high *= side > 0 ? 0.5 : 1;
@@ -109,6 +109,12 @@ static inline void usub_solve(usub_ellipse *e) {
   usub_solve_excess(e);
 }
 
+/* Length by which the scaled predictor is divided; a rounding above its limit it still sticks. */
+static inline double usub_reach(const usub_ellipse *e) {
+  const double c = e->allowable;
+  return e->excess > 0 ? e->size : fmin(fmax(e->size, c), c * (1 + 4 * DBL_EPSILON));
+}
+
 /* Change of a_1, and of -a_2, when the coefficients change by d1 and d2. */
 static inline double usub_ratio_change(const usub_ellipse *e, double d1, double d2) {
   return e->n > 1 && e->mean > 0 ? 0.5 * (e->a[1] * d1 - e->a[0] * d2) / e->mean : 0;
@@ -120,7 +126,7 @@ static inline double usub_ratio_change(const usub_ellipse *e, double d1, double 
 static inline void usub_change(const usub_ellipse *e, const double dg[2], const double partial[2],
                                double dp, double change[2]) {
   const int slips = e->excess > 0;
-  const double whole = e->allowable + e->excess, reach = slips ? e->size : e->allowable;
+  const double whole = e->allowable + e->excess, reach = usub_reach(e);
   const double n[2] = {e->a[0] * e->g[0] / reach, e->a[1] * e->g[1] / reach};
   double by_slip[2], d_mu[2], d_length = 0, length_by_excess = 0;
   for (int i = 0; i < 2; ++i) {
@@ -205,7 +211,7 @@ void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
 
   double change[4][2];
   usub_all_changes(&e, *PRESS >= 0, change);
-  const double reach = e.excess > 0 ? e.size : e.allowable;
+  const double reach = usub_reach(&e);
   *SED = *SFD = 0;
   for (int a = 0; a < n; ++a) {
     TAU[a] = e.mean * e.pressure * e.a[a] * (e.a[a] * e.g[a] / reach);

@@ -109,6 +109,8 @@ void FOR_NAME(vfriction, VFRICTION)(USUB_VFRICTION_PARAMETERS) {
 }
 
 #ifndef USUB_SINGLE
+/* A motion below has no direction that can be divided by: the point is at rest. */
+#define USUB_LEAST_MOTION 1e-280
 void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   const int n = *NFDIR;
   USUB_FIELDS_ROOM;
@@ -126,7 +128,9 @@ void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   *LM = 0;
 
   const int vectors = usub_vectors(PROPS, *NPROPS);
-  const double motion[2] = {DGAM[0], n > 1 ? DGAM[1] : 0};
+  const double size = fabs(DGAM[0]) + (n > 1 ? fabs(DGAM[1]) : 0);
+  const int moves = size > USUB_LEAST_MOTION;
+  const double motion[2] = {moves ? DGAM[0] : 0, moves && n > 1 ? DGAM[1] : 0};
   double traction[2] = {0, 0}, tangent[2][4] = {{0}}, room[USUB_VECTORS_ROOM][2];
   for (int i = 0; i < vectors; ++i)
     usub_rotate(n, USUB_VECTORS(DROT), USUB_VECTORS(STATEV + (ptrdiff_t)i * n), room[i]);

@@ -94,6 +94,8 @@ static inline int usub_standard_needs(int holds, const char *text, size_t length
 #define USUB_NEGATIVE_TEXT USUB_LAW " behind FRIC returns a coefficient below zero, or no number"
 #endif
 
+#define USUB_OVERFLOW_TEXT USUB_LAW " behind FRIC: coefficient times pressure overflows"
+
 /* State variables: `own` numbers of the law, the `given` ones of the scene; `solver` is EXPLICIT or
  * STANDARD. A law without state looks at neither. */
 #ifdef USUB_LAW_FORGETS

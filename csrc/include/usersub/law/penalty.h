@@ -49,19 +49,22 @@ void FOR_NAME(fric, FRIC)(USUB_FRIC_PARAMETERS) {
   usub_rotate(n, DROT, STATEV, elastic);
   for (int a = 0; a < n; ++a)
     elastic[a] += DGAM[a];
-  const double length = usub_length(n, elastic), plastic = fmax(length - allowable, 0);
-  const int slips = plastic > 0;
+  /* An elastic slip that was left at its limit is rounded: at rest it must not slip again. */
+  const double length = usub_length(n, elastic);
+  const int slips = length > allowable * (1 + 4 * 2.220446049250313e-16);
+  const double plastic = slips ? length - allowable : 0;
 
   /* stress = strength * direction, the direction being shorter than one in stick */
-  const double reach = slips ? length : allowable;
+  const double reach = fmax(length, allowable);
   usub_ask(USUB_RATE(usub_ratio(plastic, *DTIME)), USUB_PRESSURE(p),
            USUB_TEMPERATURE(0.5 * (TEMP[0] + TEMP[1])),
            USUB_FIELDS(usub_mean_fields(usub_fields_room, *NPRED, PREDEF, 2, PREDEF + 1, 2)),
            USUB_SLIP(plastic), USUB_TIME(*DTIME), USUB_STATE(STATEV + n), PROPS, *NPROPS, &law,
            derivative);
-  if (!USUB_STANDARD_NEEDS(law >= 0, USUB_NEGATIVE_TEXT, 0, 0))
-    return;
   const double strength = USUB_STRENGTH(law, p), secant = strength / reach;
+  if (!USUB_STANDARD_NEEDS(law >= 0, USUB_NEGATIVE_TEXT, 0, 0) ||
+      !USUB_STANDARD_NEEDS(strength - strength == 0, USUB_OVERFLOW_TEXT, 0, 0))
+    return;
   const double by_pressure =
       USUB_NORMAL(*PRESS >= 0 ? USUB_STRENGTH_BY_PRESSURE(law, p, derivative[0][1]) : 0);
   const double by_slip = USUB_RATE(usub_ratio(derivative[0][0], *DTIME)) + derivative[0][3];
