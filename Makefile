@@ -46,10 +46,10 @@ problems: ## measure the problems with known answers and write their pages
 	$(PYTHON) -m usersub.problems --markdown docs/explanation/problems.md
 	$(PYTHON) -m usersub.problems --newton docs/explanation/newton.md
 
-study: ## measure accuracy, stability and cost, and write their pages (half an hour; STUDY_ARGS=--quick)
+study: ## measure accuracy, stability and cost, and write their pages (a quarter of an hour; STUDY_ARGS=--quick)
 	$(PYTHON) -m usersub study --out build/study $(STUDY_ARGS)
 	$(PYTHON) -m usersub.study.accuracy build/study/results.json docs/explanation
-	$(PYTHON) -m usersub.study.stability.chapter docs/explanation $(STUDY_ARGS)
+	$(PYTHON) -m usersub.study.stability.chapter docs/explanation --keep build/study $(STUDY_ARGS)
 	$(PYTHON) -m tests.benchmarks
 
 conformance: ## run all rules over planted faults and built-in laws, and write their page

@@ -38,12 +38,16 @@ static size_t paged(size_t bytes) {
   return (bytes + page - 1) / page * page;
 }
 
+#ifndef P_tmpdir
+#define P_tmpdir "/tmp"
+#endif
+
 /* A file without a name. */
 static int anonymous_file(size_t bytes) {
 #if defined(__linux__)
   int file = memfd_create("usersub", MFD_CLOEXEC);
 #else
-  char name[] = "/tmp/usersub-XXXXXX";
+  char name[] = P_tmpdir "/usersub-XXXXXX";
   int file = mkstemp(name);
   if (file >= 0)
     unlink(name);

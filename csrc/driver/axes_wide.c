@@ -3,6 +3,7 @@
 #include "axes_wide.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "axes.h"
 

@@ -3,8 +3,8 @@
  * Local axes of many contact points at once, where nothing unusual is among them.
  *
  * The arithmetic is that of axes.h, operation by operation, so that the bits are the same. Points
- * that need more than one projection, scaling, or the rule for a slip of zero are left to it, and
- * so are points that will be refused.
+ * that need scaling or the rule for a slip of zero are left to it, and so are points that will be
+ * refused.
  */
 #ifndef USERSUB_AXES_WIDE_H
 #define USERSUB_AXES_WIDE_H

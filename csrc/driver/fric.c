@@ -117,8 +117,8 @@ int32_t usub_fric_take(usub_driver *driver, usub_call *call, const usub_point_ar
 
 int32_t usub_fric_ended(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
                         int32_t index, int32_t first, int32_t ended, const char *reason) {
-  const int32_t done = call->before + call->done;
-  call->done = call->before = 0; /* what happens from here on does not happen in the routine */
+  const int32_t done = call->done;
+  call->done = 0; /* what happens from here on does not happen in the routine */
   int32_t status = usub_fric_take(driver, call, at, index, first, done);
   if (!status)
     status = usub_checked_fail(driver, call, index, first + done, ended);

@@ -44,7 +44,7 @@ static void keep_iteration(usub_driver *driver) {
   memcpy(last->sed, at.sed, n * sizeof(double));
   if (at.coefficient)
     memcpy(last->coefficient, at.coefficient, 2 * n * sizeof(double));
-  usub_choose(n, 1, last->pressure, at.pressure, last->closed); /* whatever the host has there */
+  usub_choose(n, last->pressure, at.pressure, last->closed); /* whatever the host has there */
   last->done = last->complete = 1;
   last->pnewdt = USUB_PNEWDT_PRESET;
   for (int32_t w = 0; w < driver->threads; ++w)

@@ -145,11 +145,10 @@ typedef struct usub_source {
 /** Arguments and scratch of one worker. */
 typedef struct usub_call {
   void *argv[USUB_MAX_ARGS];
-  int32_t n;      /* contact points of the call */
-  int32_t done;   /* of these, points that a routine of style POINTS is through with, */
-  int32_t before; /* besides those of earlier calls for the same points */
-  char *scratch;  /* one allocation; the sources' shares, then `axes` */
-  void *axes;     /* local direction 1 of the points of a block; NULL where the routine reads it */
+  int32_t n;     /* contact points of the call */
+  int32_t done;  /* FRIC: the point of the call that the routine is at */
+  char *scratch; /* one allocation; the sources' shares, then `axes` */
+  void *axes;    /* local direction 1 of the points of a block; NULL where the routine reads it */
   /* Blocks without their open points: which are closed, where their slices are moved to, and how
    * many points the block has while the call is for fewer (0: it is for all). */
   int32_t *closed;
@@ -281,7 +280,14 @@ void *usub_data(const usub_driver *driver, const char *name);
 /* finite.c */
 /** Index of the first NaN or infinity in `n` reals, -1 if there is none. */
 ptrdiff_t usub_first_bad(const void *data, size_t n, int32_t single);
-/** The same for a few doubles: a loop of its own costs less than a call. */
+/** Several arrays of doubles; those of NULL are not there. */
+typedef struct usub_span {
+  const double *data;
+  size_t count;
+} usub_span;
+/** Whether there is no NaN or infinity in any of them. */
+int usub_all_finite(const usub_span *spans, size_t count);
+/** The first of a few doubles: a loop of its own costs less than a call. */
 static inline int32_t usub_first_bad_of_few(const double *data, int32_t n) {
   for (int32_t i = 0; i < n; ++i)
     if (!(data[i] - data[i] == 0))
@@ -362,9 +368,10 @@ void usub_props_free(usub_driver *driver);
 int32_t usub_call_routine(const usub_driver *driver, usub_call *call);
 /** Calls its entry with `argv`, whatever kind of driver it is. */
 int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv);
-/** FRIC: calls it for those of the points of `call` that are closed; `before` and `done` tell how
- * far it has come. */
-int32_t usub_call_closed(const usub_driver *driver, usub_call *call, const unsigned char *closed);
+/** FRIC: calls it for `count` of the points of `call`, which are listed in their order; `done` is
+ * the one that it is at. */
+int32_t usub_call_listed(const usub_driver *driver, usub_call *call, const int32_t *points,
+                         int32_t count);
 /** The same under a guard; says in `reason` why it ended, if it did. */
 int32_t usub_call_guarded(const usub_driver *driver, usub_call *call, char reason[256]);
 /** Records that the routine did not return as it should in the block that `call` aims at. */

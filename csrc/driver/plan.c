@@ -249,7 +249,7 @@ static void aim_fixed(usub_driver *driver) {
 
 void usub_aim(const usub_driver *driver, usub_call *call, int32_t first, int32_t n) {
   call->n = n;
-  call->done = call->before = 0;
+  call->done = 0;
   call->all = 0;
   for (int32_t m = 0; m < driver->moving_count; ++m) {
     const usub_source *source = &driver->sources[driver->moving[m]];

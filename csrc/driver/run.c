@@ -8,7 +8,8 @@
 #include "internal.h"
 
 typedef int32_t (*block_style)(void **argv);
-typedef int32_t (*points_style)(void **argv, const int64_t *stride, int32_t count, int32_t *done);
+typedef int32_t (*points_style)(void **argv, const int64_t *stride, const int32_t *points,
+                                int32_t count, int32_t *done);
 
 int32_t usub_call_routine(const usub_driver *driver, usub_call *call) {
   if (__builtin_expect(driver->checked, 0))
@@ -21,7 +22,7 @@ int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv)
   if (driver->routine.style == USUB_STYLE_BLOCK)
     return ((block_style)entry)(argv);
   if (driver->routine.style == USUB_STYLE_POINTS)
-    return ((points_style)entry)(argv, driver->stride, call->n, &call->done);
+    return ((points_style)entry)(argv, driver->stride, &(int32_t){0}, 1, &call->done);
   switch (usub_interface_key(driver->face) * 2 + driver->single) {
   case USUB_INTERFACE_FRIC * 2:
     usub_call_fric_d(entry, argv);
@@ -53,39 +54,37 @@ int32_t usub_call_entry(const usub_driver *driver, usub_call *call, void **argv)
   return USUB_OK;
 }
 
-/* Arguments that move from point to point. */
-static int32_t list_moving(const usub_driver *driver, int32_t moving[USUB_MAX_ARGS]) {
-  int32_t count = 0;
-  for (int32_t i = 0; i < driver->face->count; ++i)
-    if (driver->stride[i])
-      moving[count++] = i;
-  return count;
-}
-
-int32_t usub_call_closed(const usub_driver *driver, usub_call *call, const unsigned char *closed) {
-  const int runs = driver->routine.style == USUB_STYLE_POINTS;
-  int32_t moving[USUB_MAX_ARGS];
-  const int32_t moving_count = list_moving(driver, moving), n = call->n;
+int32_t usub_call_listed(const usub_driver *driver, usub_call *call, const int32_t *points,
+                         int32_t count) {
+  const usub_entry entry = driver->routine.entry;
+  if (driver->routine.style == USUB_STYLE_POINTS)
+    return ((points_style)entry)(call->argv, driver->stride, points, count, &call->done);
+  /* What moves from point to point is moved on from one to the next; with few branches, since a
+   * processor foresees the routine's own by those before them. */
+  struct {
+    void **place;
+    int64_t stride;
+  } moving[USUB_MAX_ARGS];
   void *argv[USUB_MAX_ARGS];
   memcpy(argv, call->argv, (size_t)driver->face->count * sizeof *argv);
-  for (int32_t k = 0, end; k < n; k = end) {
-    end = k + 1;
-    if (!closed[k])
-      continue;
-    while (runs && end < n && closed[end])
-      ++end;
-    for (int32_t m = 0; m < moving_count; ++m) {
-      const int32_t i = moving[m];
-      argv[i] = (char *)call->argv[i] + k * driver->stride[i];
+  int32_t moving_count = 0;
+  for (int32_t i = 0; i < driver->face->count; ++i)
+    if (driver->stride[i]) {
+      moving[moving_count].place = &argv[i];
+      moving[moving_count++].stride = driver->stride[i];
     }
-    call->before = k;
-    int32_t status = USUB_OK;
-    if (driver->routine.style == USUB_STYLE_FULL)
-      usub_call_fric_d(driver->routine.entry, argv);
-    else if (runs)
-      status = ((points_style)driver->routine.entry)(argv, driver->stride, end - k, &call->done);
-    else
-      status = usub_call_entry(driver, call, argv);
+  for (int32_t j = 0, at = 0; j < count; ++j) {
+    const int64_t step = points[j] - at;
+    at = points[j];
+#pragma GCC unroll 8
+    for (int32_t m = 0; m < moving_count; ++m)
+      *moving[m].place = (char *)*moving[m].place + step * moving[m].stride;
+    call->done = at;
+    if (driver->routine.style == USUB_STYLE_FULL) {
+      usub_call_fric_d(entry, argv);
+      continue;
+    }
+    const int32_t status = ((block_style)entry)(argv);
     if (status < 0)
       return status;
   }

@@ -52,18 +52,16 @@ int32_t usub_fric_ended(usub_driver *driver, usub_call *call, const usub_point_a
 int32_t usub_fric_constrain(usub_driver *driver, usub_call *call, const usub_point_arrays *at,
                             int32_t index, int32_t p);
 
-/** Numbers of the points that are wanted (1), zero for the others (0), `F` a point, which has to be
- * a constant to the compiler. Without branches: which points are wanted cannot be foreseen. */
-static inline __attribute__((always_inline)) void
-usub_choose(size_t n, size_t F, double *restrict to, const double *restrict from,
-            const unsigned char *restrict wanted) {
-  for (size_t k = 0; k < n; ++k)
-    for (size_t a = k * F; a < (k + 1) * F; ++a) {
-      uint64_t bits;
-      memcpy(&bits, from + a, sizeof bits);
-      bits &= -(uint64_t)wanted[k];
-      memcpy(to + a, &bits, sizeof bits);
-    }
+/** Numbers of the points that are wanted (1), zero for the others (0). Without branches: which
+ * points are wanted cannot be foreseen. */
+static inline void usub_choose(size_t n, double *restrict to, const double *restrict from,
+                               const unsigned char *restrict wanted) {
+  for (size_t k = 0; k < n; ++k) {
+    uint64_t bits;
+    memcpy(&bits, from + k, sizeof bits);
+    bits &= -(uint64_t)wanted[k];
+    memcpy(to + k, &bits, sizeof bits);
+  }
 }
 
 /** In words: a routine said so itself. */

@@ -4,10 +4,7 @@
 import math
 
 import usersub
-from usersub.lift import real
-
-#: Smallest normal number: a bristle of which the limit is below carries nothing.
-TINY = 2.2250738585072014e-308
+from usersub.lift import real, tiny
 
 
 @usersub.traction(vectors=1, props=2)
@@ -15,7 +12,7 @@ def dahl(motion, pressure, vectors, props):
     strength, stiffness = props[0] * pressure, props[1]
     length = math.hypot(motion[0], motion[1])
     first, second = vectors[0, 0], vectors[0, 1]
-    if real(strength) > stiffness * TINY:
+    if real(strength) > stiffness * tiny(props):
         x = min(stiffness * length / strength, 1e30)
         if x > 0.0:
             kept, reach = math.exp(-x), strength / stiffness * -math.expm1(-x)

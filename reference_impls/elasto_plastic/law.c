@@ -183,7 +183,8 @@ static void at_rest(const usub_real bend[2], usub_real width, usub_real by_motio
 }
 
 USUB_BRISTLE_FUNCTION {
-  const usub_real stiffness = props[4], damping = props[5], width = 1 - (props[7] > LEAST ? props[7] : LEAST);
+  const usub_real stiffness = props[4], damping = props[5],
+                  width = 1 - (props[7] > LEAST ? props[7] : LEAST);
   const usub_real per_time = time_increment > 0 ? 1 / time_increment : 0;
   const usub_real length = hypot(motion[0], motion[1]), rate = length * per_time;
   usub_real mu_by_rate, *z = vectors[0];
@@ -206,12 +207,14 @@ USUB_BRISTLE_FUNCTION {
   /* A bend beyond a limit that has fallen goes back to it. */
   const int clipped = size > limit;
   const usub_real unit = clipped ? size : limit, first[2] = {z[0] / unit, z[1] / unit};
+  const usub_real by_length = limit * mu_by_rate * per_time / mu; /* of the limit */
   if (!(length > 0)) {
     usub_real by_motion[2][2];
     at_rest(first, width, by_motion);
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2 && tangent; ++b)
-        tangent[a][b] += (stiffness + damping * per_time) * by_motion[a][b];
+        tangent[a][b] += (stiffness + damping * per_time) * by_motion[a][b] +
+                         (clipped ? stiffness * by_length * first[a] : 0);
       if (tangent && clipped)
         tangent[a][2] = mu * first[a];
       z[a] = limit * first[a];
@@ -227,7 +230,6 @@ USUB_BRISTLE_FUNCTION {
             .width = width,
             .clipped = clipped};
   follow(&p, tangent ? NUMBERS : GAP_BY_GAP);
-  const usub_real by_length = limit * mu_by_rate * per_time / mu; /* of the limit */
   if (!p.slips) {
     for (int a = 0; a < 2; ++a) {
       z[a] = (clipped ? limit * first[a] : z[a]) + motion[a];

@@ -228,12 +228,17 @@ contains
       ! A bend beyond a limit that has fallen goes back to it.
       clipped = hypot(z(1), z(2)) > limit
       first = z/max(hypot(z(1), z(2)), limit)
+      by_length = limit*mu_by_rate*per_time/mu ! of the limit
       if (.not. length > 0) then
         z = limit*first
         traction = traction + stiffness*z
         if (present(tangent)) then
           tangent(:, 1:2) = tangent(:, 1:2) + (stiffness + damping*per_time)*at_rest(first, width)
-          if (clipped) tangent(:, 3) = mu*first
+          if (clipped) then
+            tangent(:, 1) = tangent(:, 1) + stiffness*by_length*first
+            tangent(:, 2) = tangent(:, 2) + stiffness*by_length*first
+            tangent(:, 3) = mu*first
+          end if
         end if
         return
       end if
@@ -244,7 +249,6 @@ contains
       p%width = width
       p%clipped = clipped
       call follow(p, merge(6, 2, present(tangent)))
-      by_length = limit*mu_by_rate*per_time/mu ! of the limit
       if (.not. p%slips) then
         if (clipped) z = limit*first
         z = z + motion

@@ -15,6 +15,7 @@ static int iwan_props(const usub_real *props, int count) {
 }
 
 #include <usersub/bristle_law.h>
+#include <usersub/law_functions.h>
 
 USUB_BRISTLE_FUNCTION {
   const int n = (int)props[1];
@@ -31,6 +32,9 @@ USUB_BRISTLE_FUNCTION {
       size = hypot(trial[0], trial[1]);
     }
     const int slips = unit != 1 || !(size < limit);
+    /* Left at its limit by a slip, it is above by rounding: at rest its tangent is that of stick.
+     */
+    const int sticks = !slips || (unit == 1 && limit > 0 && size <= limit * USUB_ROUNDED);
     const usub_real along[2] = {size > 0 ? trial[0] / size : 0, size > 0 ? trial[1] / size : 0};
     const usub_real turning =
         size > 0 ? stiffness * (limit / size) / unit : 0; /* across the traction */
@@ -40,7 +44,7 @@ USUB_BRISTLE_FUNCTION {
     }
     if (!tangent)
       continue;
-    if (!slips) {
+    if (sticks) {
       tangent[0][0] += stiffness;
       tangent[1][1] += stiffness;
       continue;

@@ -24,6 +24,7 @@ contains
       )
 #include "usersub/bristle_types.fi"
     real(wp) :: limit, length, along(2), across(2), start(2), unit
+    logical :: slips, sticks
     integer :: n, i, b
     n = int(props(2))
     traction = 0
@@ -39,16 +40,18 @@ contains
           element = start/unit + motion
           length = hypot(element(1), element(2))
         end if
-        if (length < limit .and. unit == 1) then
-          if (present(tangent)) then
-            tangent(1, 1) = tangent(1, 1) + stiffness
-            tangent(2, 2) = tangent(2, 2) + stiffness
-          end if
-        else
+        slips = .not. (length < limit .and. unit == 1)
+        ! left at its limit by a slip, it is above by rounding: at rest its tangent is that of stick
+        sticks = .not. slips .or. (unit == 1 .and. limit > 0 .and. length <= limit*(1 + 4*epsilon(limit)))
+        if (sticks .and. present(tangent)) then
+          tangent(1, 1) = tangent(1, 1) + stiffness
+          tangent(2, 2) = tangent(2, 2) + stiffness
+        end if
+        if (slips) then
           along = 0
           if (length > 0) along = element/length
           element = limit*along
-          if (present(tangent)) then
+          if (present(tangent) .and. .not. sticks) then
             across = [-along(2), along(1)]
             do b = 1, 2
               tangent(:, b) = tangent(:, b) + stiffness*ratio(limit, length)/unit*across*across(b)

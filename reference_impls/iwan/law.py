@@ -5,6 +5,10 @@ their stiffnesses, their shares of the strength."""
 import math
 
 import usersub
+from usersub.lift import real
+
+#: An element that a slip left at its limit is rounded: at rest its tangent is that of stick.
+ROUNDED = 1.0 + 4.0 * 2.220446049250313e-16
 
 #: Largest number.
 HUGE = 1.7976931348623157e308
@@ -39,7 +43,12 @@ def iwan(motion, pressure, vectors, props):
             size = math.hypot(first, second)
         if far or size >= limit:
             if size > 0.0:
-                first, second = limit * (first / size), limit * (second / size)
+                at_1, at_2 = limit * (first / size), limit * (second / size)
+                if far or size > limit * ROUNDED or not limit > 0.0:
+                    first, second = at_1, at_2
+                else:  # the same value; what changes it is the motion alone
+                    first = first + (real(at_1) - real(first))
+                    second = second + (real(at_2) - real(second))
             else:
                 first, second = 0.0 * first, 0.0 * second
         vectors[i, 0], vectors[i, 1] = first, second

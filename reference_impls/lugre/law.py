@@ -7,10 +7,7 @@ props: mus, muk, vs, delta, sigma0, sigma1, sigma2.
 import math
 
 import usersub
-from usersub.lift import real, stribeck
-
-#: Smallest normal number: a bristle of which the limit is below carries nothing.
-TINY = 2.2250738585072014e-308
+from usersub.lift import real, stribeck, tiny
 
 
 @usersub.traction(vectors=1, props=7)
@@ -21,7 +18,7 @@ def lugre(motion, time_increment, pressure, vectors, props):
     strength = pressure * stribeck(length * per_time, props[0], props[1], props[2], props[3])
     first, second = vectors[0, 0], vectors[0, 1]
     first_rate, second_rate = 0.0 * motion[0], 0.0 * motion[1]
-    if real(strength) > stiffness * TINY:
+    if real(strength) > stiffness * tiny(props):
         x = min(stiffness * length / strength, 1e30)
         kept = math.exp(-x)
         first_rate = kept * per_time * (motion[0] - x * first)

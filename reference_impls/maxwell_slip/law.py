@@ -43,6 +43,8 @@ def maxwell_slip(motion, time_increment, pressure, vectors, state, props):
     n = int(props[6])
     per_time = 1.0 / time_increment if time_increment > 0.0 else 0.0
     length = math.hypot(motion[0], motion[1])
+    if not length > 0.0:  # all elements stick: the strength at rest does not depend on the motion
+        length = 0.0 * motion[0]
     strength = pressure * stribeck(length * per_time, props[0], props[1], props[2], props[3])
     total_1, total_2 = props[5] * per_time * motion[0], props[5] * per_time * motion[1]
     for i in range(n):

@@ -16,7 +16,7 @@ USUB_LAW_FUNCTION {
   state[0] = theta;
   const int creeps = rate < props[6];
   const usub_real v = creeps ? props[6] : rate;
-  const usub_real mu = mu0 + a * log(v / v0) + b * log(v0 * (theta / dc));
+  const usub_real mu = mu0 + a * usub_log_scaled(1, v, v0) + b * usub_log_scaled(v0, theta, dc);
   if (mu < 0)
     return 0;
   if (derivative)

@@ -22,7 +22,7 @@ contains
         theta0 => props(6), v_min => props(7), theta => state(1))
       if (.not. theta > 0) theta = theta0
       call aged(theta, rate, time_increment, dc, theta_by_rate)
-      mu = mu0 + a*log(max(rate, v_min)/v0) + b*log(v0*(theta/dc))
+      mu = mu0 + a*log_scaled(1.0_wp, max(rate, v_min), v0) + b*log_scaled(v0, theta, dc)
       if (mu < 0) then
         mu = 0
       else if (present(derivative)) then

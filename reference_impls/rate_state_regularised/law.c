@@ -10,13 +10,13 @@
 
 USUB_LAW_FUNCTION {
   const usub_real f0 = props[0], a = props[1], b = props[2], v0 = props[3], dc = props[4];
-  usub_real theta_by_rate, by_ratio, by_exponent;
+  usub_real theta_by_rate, by_rate, by_exponent;
   const usub_real theta =
       usub_aged(state[0] > 0 ? state[0] : props[5], rate, time_increment, dc, &theta_by_rate);
   state[0] = theta;
-  const usub_real exponent = (f0 + b * log(v0 * (theta / dc))) / a;
-  const usub_real value = usub_asinh_product(rate / (2 * v0), exponent, &by_ratio, &by_exponent);
+  const usub_real exponent = (f0 + b * usub_log_scaled(v0, theta, dc)) / a;
+  const usub_real value = usub_asinh_rate(rate, 2 * v0, exponent, &by_rate, &by_exponent);
   if (derivative)
-    derivative[0] = a * by_ratio / (2 * v0) + b * by_exponent * (theta_by_rate / theta);
+    derivative[0] = a * by_rate + b * by_exponent * (theta_by_rate / theta);
   return a * value;
 }

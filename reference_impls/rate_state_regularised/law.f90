@@ -17,15 +17,15 @@ contains
 #include "usersub/law_names.fi"
       ) result(mu)
 #include "usersub/law_types.fi"
-    real(wp) :: mu, theta_by_rate, value, by_ratio, by_exponent
+    real(wp) :: mu, theta_by_rate, value, by_rate, by_exponent
     associate (f0 => props(1), a => props(2), b => props(3), v0 => props(4), dc => props(5), &
         theta0 => props(6), theta => state(1))
       if (.not. theta > 0) theta = theta0
       call aged(theta, rate, time_increment, dc, theta_by_rate)
-      call asinh_product(rate/(2*v0), (f0 + b*log(v0*(theta/dc)))/a, value, by_ratio, by_exponent)
+      call asinh_rate(rate, 2*v0, (f0 + b*log_scaled(v0, theta, dc))/a, value, by_rate, by_exponent)
       mu = a*value
       if (present(derivative)) &
-          derivative(1) = a*by_ratio/(2*v0) + b*by_exponent*(theta_by_rate/theta)
+          derivative(1) = a*by_rate + b*by_exponent*(theta_by_rate/theta)
     end associate
   end function
 end module

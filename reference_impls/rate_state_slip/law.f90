@@ -22,30 +22,32 @@ contains
         theta0 => props(6), v_min => props(7), theta => state(1))
       if (.not. theta > 0) theta = theta0
       x = rate*time_increment/dc
-      v = max(rate, v_min)
-      distance = v*(theta/dc) ! from the steady state
-      if (distance >= tiny(distance) .and. distance <= huge(distance)) then
-        distance = log(distance)
-      else
-        distance = log(v) + log(theta/dc)
-      end if
+      v = max(rate, v_min, tiny(rate))
+      distance = log_scaled(v, theta, dc) ! from the steady state
       if (x < 0.7_wp) then
         theta = theta*exp(distance*expm1(-x))
       else ! at large slip theta is counted from its steady state
         theta = dc/v*exp(distance*exp(-x))
       end if
       theta = max(theta, tiny(theta)) ! 0 was never set
-      mu = mu0 + a*log(v/v0) + b*log(v0*(theta/dc))
+      mu = mu0 + a*log_scaled(1.0_wp, v, v0) + b*log_scaled(v0, theta, dc)
       if (mu < 0) then
         mu = 0
       else if (present(derivative)) then
         by_rate = -distance*exp(-x)
-        if (.not. rate < v_min) then
+        if (.not. rate < v) then
           call mean_decay(x, mean, slope)
           by_rate = by_rate - mean
           derivative(1) = a/v
         end if
-        derivative(1) = derivative(1) + b*by_rate*(time_increment/dc)
+        if (.not. x > steady_from) then
+          by_rate = by_rate*(time_increment/dc)
+        else if (.not. rate < v) then
+          by_rate = -1/v
+        else
+          by_rate = 0
+        end if
+        derivative(1) = derivative(1) + b*by_rate
       end if
     end associate
   end function

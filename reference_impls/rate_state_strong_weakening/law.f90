@@ -33,33 +33,34 @@ contains
       ) result(mu)
 #include "usersub/law_types.fi"
     real(wp) :: mu, x, v, logarithmic, drop, share, slope, first, steady, psi, value
-    real(wp) :: by_ratio, by_exponent, by_log, size_by_rate, steady_by_rate, psi_by_rate, magnitude
+    real(wp) :: by_own, by_exponent, by_log, size_by_rate, steady_by_rate, psi_by_rate, magnitude
     associate (f0 => props(1), a => props(2), b => props(3), v0 => props(4), dc => props(5), &
         theta0 => props(6), fw => props(7), vw => props(8), v_min => props(9), theta => state(1))
       if (.not. theta > 0) theta = theta0
       x = rate*time_increment/dc
-      v = max(rate, v_min)
-      logarithmic = f0 + (a - b)*log(v/v0)
+      v = max(rate, v_min, tiny(rate))
+      logarithmic = f0 + (a - b)*log_scaled(1.0_wp, v, v0)
       drop = max(logarithmic - fw, 0.0_wp)
       call weakening(rate/vw, share, slope)
       magnitude = (fw + drop*share)/a
 
       ! psi = f0 + b ln(V0 theta/Dc) decays to that of steady sliding, a ln(2 V0/v sinh(magnitude))
-      steady = a*(log(v0/v) + magnitude + log(-expm1(-2*magnitude)))
-      first = f0 + b*log(v0*(theta/dc))
+      steady = a*(log_scaled(1.0_wp, v0, v) + magnitude + log(-expm1(-2*magnitude)))
+      first = f0 + b*log_scaled(v0, theta, dc)
       psi = first*exp(-x) - steady*expm1(-x)
       theta = dc/v0*exp(min(max((psi - f0)/b, -most_exponent), most_exponent))
 
-      call asinh_product(rate/(2*v0), psi/a, value, by_ratio, by_exponent)
+      call asinh_rate(rate, 2*v0, psi/a, value, by_own, by_exponent)
       mu = a*value
       if (present(derivative)) then
         by_log = 0
-        if (.not. rate < v_min) by_log = 1/v
+        if (.not. rate < v) by_log = 1/v
         size_by_rate = drop*slope/vw/a
         if (drop > 0) size_by_rate = size_by_rate + (a - b)*by_log*share/a
         steady_by_rate = a*(size_by_rate/tanh(magnitude) - by_log)
-        psi_by_rate = (steady - first)*exp(-x)*(time_increment/dc) - steady_by_rate*expm1(-x)
-        derivative(1) = a*by_ratio/(2*v0) + by_exponent*psi_by_rate
+        psi_by_rate = -steady_by_rate*expm1(-x)
+        if (exp(-x) > 0) psi_by_rate = (steady - first)*exp(-x)*(time_increment/dc) + psi_by_rate
+        derivative(1) = a*by_own + by_exponent*psi_by_rate
       end if
     end associate
   end function

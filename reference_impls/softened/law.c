@@ -23,14 +23,17 @@ USUB_BRISTLE_FUNCTION {
     }
     return;
   }
+  /* Left at its limit by a slip, it is above by rounding: at rest its tangent is that of stick. */
+  const int sticks = strength > 0 && slope * length <= strength * USUB_ROUNDED;
   const usub_real reach = length > 0 ? length : 1; /* no length: no strength either */
   const usub_real direction[2] = {trial[0] / reach, trial[1] / reach};
   for (int i = 0; i < 2; ++i) {
     traction[i] = strength * direction[i];
     vectors[0][i] = traction[i] / slope;
     for (int j = 0; tangent && j < 2; ++j)
-      tangent[i][j] = strength / reach * ((i == j) - direction[i] * direction[j]);
-    if (tangent)
+      tangent[i][j] =
+          sticks ? slope * (i == j) : strength / reach * ((i == j) - direction[i] * direction[j]);
+    if (tangent && !sticks)
       tangent[i][2] = props[0] * direction[i];
   }
 }

@@ -16,6 +16,7 @@ contains
       )
 #include "usersub/bristle_types.fi"
     real(wp) :: strength, trial(2), length, direction(2)
+    logical :: sticks
     integer :: j
     strength = props(1)*pressure
     ! an elastic slip below the smallest normal number has no digits: it carries nothing
@@ -31,11 +32,16 @@ contains
       end if
       return
     end if
+    ! left at its limit by a slip, it is above by rounding: at rest its tangent is that of stick
+    sticks = strength > 0 .and. props(2)*length <= strength*(1 + 4*epsilon(strength))
     if (.not. length > 0) length = 1 ! no strength either
     direction = trial/length
     traction = strength*direction
     vectors(:, 1) = traction/props(2)
-    if (present(tangent)) then
+    if (present(tangent) .and. sticks) then
+      tangent(1, 1) = props(2)
+      tangent(2, 2) = props(2)
+    else if (present(tangent)) then
       do j = 1, 2
         tangent(:, j) = -direction*direction(j)*(strength/length)
         tangent(j, j) = tangent(j, j) + strength/length

@@ -52,7 +52,7 @@ def one_point(folder: Path) -> list[Row]:
     limit = ("empty cffi call", found["empty"])
     # 100 ns where the empty call takes 72
     target = 1.4
-    reason = "the call itself is at its limit; the rest is `exp` and the checks of its result"
+    reason = "The call itself is at its limit; the rest is `exp` and the checks of its result."
     return [
         Row(CALL, "empty cffi call", 1, found["empty"]),
         Row(CALL, "driver, routine that does nothing", 1, found["nothing"], *limit, target, reason),
@@ -121,10 +121,16 @@ def blocks(folder: Path, points: int) -> list[Row]:
 def _reason(name: str) -> str:
     if "vector" in name:
         return (
-            "the driver looks at every slip rate and every coefficient for NaN and infinity and "
-            "clears the result before the call; with 1 ns a point of law, that is seen"
+            "With vector_math the law takes what it takes in the loop by hand, so little that "
+            "clearing the coefficients and looking at slip rates and coefficients for NaN and "
+            "infinity add a quarter; without these two the ratio is 0.98 for 10000 and 0.93 for a "
+            "million points."
         )
-    return "what the driver looks at (NaN and infinity in and out), and the machine's noise"
+    return (
+        "Clearing and looking for NaN and infinity add 4 percent to a law with the scalar exp, "
+        "arming against its crashes 1 to 2; for a million points the first two add 10 percent, "
+        "since memory is then waited for before and after the law in place of during it."
+    )
 
 
 def _repeated(limit: laws.Limit, coefficient: np.ndarray, rate: np.ndarray) -> Repeat:
@@ -146,5 +152,5 @@ def threads(points: int) -> list[Row]:
     return [
         Row("VFRIC_COEF, two threads", "driver, Python, wall time", points, seconds[2],
             "half of one thread", seconds[1] / 2, 2 / 1.8,
-            "other work on the machine's processors counts in wall time")
+            "Other work on the machine's processors counts in wall time.")
     ]  # fmt: skip

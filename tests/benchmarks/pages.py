@@ -85,15 +85,18 @@ def _targets(rows: Sequence[Row]) -> str:
 
 
 def _missed(rows: Sequence[Row]) -> str:
-    """Reasons, each once."""
+    """Why targets are missed: a line for each work, or for works with the same reasons."""
     reasons: dict[str, list[str]] = {}
     for row in rows:
-        if not row.met:
-            reasons.setdefault(row.reason, []).append(f"{row.work}, {row.way}, {row.points} points")
-    if not reasons:
+        if not row.met and row.reason not in reasons.setdefault(row.work, []):
+            reasons[row.work].append(row.reason)
+    works: dict[str, list[str]] = {}
+    for work, why in reasons.items():
+        works.setdefault(" ".join(why), []).append(work)
+    if not works:
         return "All are met."
     return "Why the others are not met:\n\n" + "\n".join(
-        f"- {'; '.join(where)}: {why}." for why, where in reasons.items()
+        f"- {'; '.join(where)}: {why}" for why, where in works.items()
     )
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from tests import apart
 from usersub.check import check
 
 pytestmark = pytest.mark.needs_fortran
@@ -32,7 +33,8 @@ READ = read()
 @pytest.mark.parametrize("found", READ, ids=lambda r: f"{Path(r['file']).name}-{r['interface']}")
 def test_verdicts_are_those_of_a_careful_reader(found, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    (report,) = check(
+    (report,) = apart.run(
+        check,
         FILES / found["file"],
         interface=found["interface"],
         jobs=1,
@@ -75,5 +77,5 @@ def test_almost_every_author_was_read():
 def test_what_goes_deepest_is_found(file, interface, rules, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     path = FILES / "authors" / file
-    (report,) = check(path, interface=interface, rules=rules, jobs=1, seconds=600)
+    (report,) = apart.run(check, path, interface=interface, rules=rules, jobs=1, seconds=600)
     assert {r.rule for r in report.results if r.verdict == "fail"} == set(rules), str(report)

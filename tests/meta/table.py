@@ -4,18 +4,22 @@
 Runs all rules over every planted file and over every built-in law in every language, interface and
 precision, and writes docs/explanation/conformance.md; `--check` compares instead. It takes about
 half an hour on two cores; `make conformance` does it. CI compares, with `--own`, by which planted
-files are looked at by their own rule only, and `--part I/N`, one part of all at a time.
+files are looked at by their own rule only, and `--minutes`, after which the others count as well;
+`--from` then says where to begin. `--part I/N` compares a part.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
+import multiprocessing
 import os
 import sys
 import tempfile
+import time
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +34,10 @@ from usersub.check import all_rules as rules
 from usersub.errors import Error
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/explanation/conformance.md"
+#: Files or combinations that a process looks at.
+_TASKS = 24
+#: By so many combinations a run begins behind the one before it.
+_STEP = 101
 LANGUAGES = {"c": "C", "fortran": "Fortran", "python": "Python"}
 
 HEAD = """\
@@ -39,8 +47,9 @@ HEAD = """\
 
 A conformance suite is worth what it finds, and what it does not make up. This page is written by \
 `make conformance`, which runs every rule over routines that are broken on purpose and over every \
-built-in law. CI does it again in parts, another one for each commit, planted faults by their own \
-rules, and compares. How small faults in the laws themselves fare is told in [](mutation.md).
+built-in law. CI does it again for every commit, planted faults by their own rules, and compares; \
+it stops after some minutes, and begins elsewhere for each commit. How small faults in the laws \
+themselves fare is told in [](mutation.md).
 
 """
 PLANTED_HEAD = """\
@@ -183,31 +192,47 @@ def page(of_planted: Sequence[Answer], of_laws: Sequence[Answer]) -> str:
 
 
 def answers(
-    look: Callable[[Any], Answer], things: Sequence[Any], processes: int, kept: Path | None = None
+    look: Callable[[Any], Answer],
+    things: Sequence[Any],
+    processes: int,
+    kept: Path | None = None,
+    until: float = math.inf,
 ) -> list[Answer]:
     """Looks at all of them, and says on stderr how far it is.
 
     Args:
         kept: file with the answers of a run that was interrupted; new ones are added to it.
+        until: time by `time.monotonic` after which no more are looked at.
     """
     known = dict[str, str]()
     if kept is not None and kept.is_file():
         known = dict(json.loads(line) for line in kept.read_text(encoding="utf-8").splitlines())
     found = dict(known)
-    # Those in Python last: what they import makes every child process that follows slower.
-    missing = sorted(
-        (thing for thing in things if thing.id not in known), key=lambda t: t.language == "python"
-    )
-    with ProcessPoolExecutor(processes) as pool:
-        made = (done.result() for done in as_completed(pool.submit(look, t) for t in missing))
-        for count, answer in enumerate(made, 1):
-            found[answer.key.id] = answer.fault
-            told = f"{count}/{len(missing)} {answer.key.id} {answer.fault}".rstrip()
-            print(told, file=sys.stderr, flush=True)
-            if kept is not None:
-                with kept.open("a", encoding="utf-8") as stream:
-                    stream.write(json.dumps([answer.key.id, answer.fault]) + "\n")
-    return [Answer(thing, found[thing.id]) for thing in things]
+    missing = [thing for thing in things if thing.id not in known]
+    for count, answer in enumerate(_looked_at(look, missing, processes, until), 1):
+        found[answer.key.id] = answer.fault
+        told = f"{count}/{len(missing)} {answer.key.id} {answer.fault}".rstrip()
+        print(told, file=sys.stderr, flush=True)
+        if kept is not None:
+            with kept.open("a", encoding="utf-8") as stream:
+                stream.write(json.dumps([answer.key.id, answer.fault]) + "\n")
+    return [Answer(thing, found[thing.id]) for thing in things if thing.id in found]
+
+
+def _looked_at(
+    look: Callable[[Any], Answer], things: Sequence[Any], processes: int, until: float
+) -> Iterator[Answer]:
+    """The answers as they come. Processes are not kept for long, and have those in Python last:
+    what these import and compile makes every child process of theirs slower."""
+    size = _TASKS * processes
+    for first in range(0, len(things), size):
+        batch = sorted(things[first : first + size], key=lambda t: t.language == "python")
+        with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
+            for done in as_completed([pool.submit(look, thing) for thing in batch]):
+                yield done.result()
+                if time.monotonic() > until:
+                    pool.shutdown(cancel_futures=True)
+                    return
 
 
 def _part(text: str) -> tuple[int, int]:
@@ -217,9 +242,12 @@ def _part(text: str) -> tuple[int, int]:
     return int(number), int(of)
 
 
-def _some(things: Sequence[Any], part: tuple[int, int]) -> Sequence[Any]:
+def _some(things: Sequence[Any], part: tuple[int, int], begin: int = 0) -> Sequence[Any]:
+    """A part, those first at which a run with this number begins."""
     number, of = part
-    return things[number - 1 :: of]
+    some = things[number - 1 :: of]
+    first = begin * _STEP % len(some)
+    return [*some[first:], *some[:first]]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -229,19 +257,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--own", action="store_true", help="planted files by their own rule only")
     parser.add_argument("--part", type=_part, default=(1, 1), metavar="I/N",
                         help="of everything, with --check: the others count as well")  # fmt: skip
+    parser.add_argument("--minutes", type=float, default=math.inf, metavar="M",
+                        help="as many as can be looked at in this time, with --check")  # fmt: skip
+    parser.add_argument("--from", dest="begin", type=int, default=0, metavar="N",
+                        help="number of the run, which says where it begins")  # fmt: skip
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--keep", type=Path, help="file of answers, to go on where a run ended")
     given = parser.parse_args(arguments)
-    if given.part != (1, 1) and not given.check:
-        parser.error("--part is for --check: the page tells of everything")
+    if (given.part != (1, 1) or given.minutes < math.inf) and not given.check:
+        parser.error("--part and --minutes are for --check: the page tells of everything")
+    until = time.monotonic() + 60.0 * given.minutes
     of_planted, of_laws = planting.files("planted"), law_matrix.combinations()
     with tempfile.TemporaryDirectory() as folder:
         os.environ.setdefault("USERSUB_CACHE", folder)
         look = look_at_own if given.own else look_at_planted
-        found = [
-            *answers(look, _some(of_planted, given.part), given.processes, given.keep),
-            *answers(look_at_law, _some(of_laws, given.part), given.processes, given.keep),
-        ]
+        found = []
+        for way, things in ((look, of_planted), (look_at_law, of_laws)):
+            some = _some(things, given.part, given.begin)
+            found += answers(way, some, given.processes, given.keep, until)
+    print(f"looked at {len(found)} of {len(of_planted) + len(of_laws)}")
     faults = [a for a in found if a.fault]
     said = {a.key.id: a.fault for a in faults}
     text = page(

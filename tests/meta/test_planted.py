@@ -6,24 +6,18 @@ all rules, at the others by their own. USERSUB_EVERYTHING=1 takes every file by 
 `python -m tests.meta.table` all rules for all files.
 """
 
-import tomllib
 from itertools import groupby
 
 import pytest
 
+from tests import apart
 from tests.conformance import law_matrix
-from tests.meta import planting
+from tests.meta import planting, table
 from tests.meta.planting import Planted
 from usersub.check import all_rules as rules
 
 PLANTED = planting.files("planted")
 HEALTHY = planting.files("healthy")
-
-
-def languages() -> dict[str, dict[str, str]]:
-    """Rule -> language -> why the fault cannot be made in it."""
-    with (planting.HERE / "planted/languages.toml").open("rb") as stream:
-        return tomllib.load(stream)
 
 
 def of_each_rule() -> list[Planted]:
@@ -40,7 +34,7 @@ def needs(planted: Planted, request: pytest.FixtureRequest) -> None:
 
 def test_every_rule_has_its_fault_in_every_language():
     made = {(p.rule, p.language) for p in PLANTED}
-    excused = {(rule, language) for rule, why in languages().items() for language in why}
+    excused = {(rule, language) for rule, why in table.excuses().items() for language in why}
     wanted = {(rule, language) for rule in rules() for language in ("c", "fortran", "python")}
     assert wanted - made - excused == set()
     assert made & excused == set(), "excused, but made"
@@ -60,13 +54,13 @@ BY_OWN_RULE = PLANTED if law_matrix.everything() else of_each_rule()[1::2]
 @pytest.mark.parametrize("planted", BY_OWN_RULE, ids=lambda p: p.id)
 def test_is_found_by_its_own_rule(planted: Planted, request: pytest.FixtureRequest):
     needs(planted, request)
-    planted.caught(planted.check([planted.rule], jobs=1, seconds=600))
+    planted.caught(apart.run(planted.check, [planted.rule], jobs=1, seconds=600))
 
 
 @pytest.mark.parametrize("planted", of_each_rule()[::2], ids=lambda p: p.id)
 def test_is_found_by_no_other_rule(planted: Planted, request: pytest.FixtureRequest):
     needs(planted, request)
-    reports = planted.check(jobs=1, seconds=600)
+    reports = apart.run(planted.check, jobs=1, seconds=600)
     planted.caught(reports)
     assert planted.others(reports) == []
 
@@ -74,7 +68,7 @@ def test_is_found_by_no_other_rule(planted: Planted, request: pytest.FixtureRequ
 @pytest.mark.parametrize("healthy", HEALTHY, ids=lambda p: p.path.name)
 def test_healthy_routines_break_nothing(healthy: Planted, request: pytest.FixtureRequest):
     needs(healthy, request)
-    for report in healthy.check(jobs=1, seconds=600):
+    for report in apart.run(healthy.check, jobs=1, seconds=600):
         found = [f"{r.rule}: {r.detail}" for r in report.failures if r.severity != "note"]
         assert found == [], str(report)
         assert [f"{r.rule}: {r.detail}" for r in report.results if r.verdict == "skip"] == []

@@ -25,7 +25,7 @@ def result(**changes: object) -> Result:
     }  # fmt: skip
     if "run_time_s" in changes and "run_time_low" not in changes:
         time = changes["run_time_s"]
-        fields |= {"run_time_low": 0.9 * time, "run_time_high": 1.2 * time}
+        fields |= {"run_time_low": 0.95 * time, "run_time_high": 1.05 * time}
     return Result(**{**fields, **changes})
 
 

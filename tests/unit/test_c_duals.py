@@ -149,7 +149,9 @@ def test_values_and_derivatives(ask, expression, data):
     by_y = (truth(x, y + h) - truth(x, y)) / h
     expected = np.array([float(by_x), float(by_y)])
     assume((np.abs(expected) < 1e20).all())  # a step has no slope
-    np.testing.assert_allclose(derivatives[:2], expected, rtol=2e-13, atol=1e-14 * abs(value))
+    # slopes of one that cancel leave their rounding
+    size = max(abs(value), 1.0) if "usub_abs" in expression else abs(value)
+    np.testing.assert_allclose(derivatives[:2], expected, rtol=2e-13, atol=1e-14 * size)
     np.testing.assert_array_equal(derivatives[2:], 0)
 
 

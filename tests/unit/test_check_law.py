@@ -15,6 +15,7 @@ import pytest
 
 import usersub
 from usersub import laws
+from usersub.check.agreement import refusals
 from usersub.check.agreement import samples as law_samples
 from usersub.check.agreement import truth as law_truth
 from usersub.check.case import one
@@ -84,6 +85,14 @@ def test_shipped_laws_agree(name, language, interface, precision):
         ("stribeck", "vfric_coef", "usub_real", "float", "fCoef"),
         ("slip_weakening", "fric_coef", "return", "state[0] *= 1.001; return",
          "state variable 1|fCoef|friction"),
+        ("norton_hoff", "fric", "derivative[0] = props[0];", "derivative[0] = 2 * props[0];",
+         r"DDTDDG\(1,1\)"),  # at rest, with n = 1 and v0 = 0
+        ("elasto_plastic", "fric", "for (int b = 0; b < 2 && tangent; ++b)",
+         "for (int b = 1; b < 2 && tangent; ++b)", r"DDTDDG\(1,1\)"),
+        ("iwan", "vfric", "if (count < 4)", "if (count >= 4)",
+         "takes the 7 properties .* the built-in law iwan refuses as too few"),
+        ("maxwell_slip", "fric", "props[6] >= 1 &&", "props[6] >= 1 ||",
+         "takes the 13 properties .* the built-in law maxwell_slip refuses as too few"),
         ("lugre", "vfriction", "z[a] = kept * z[a] + gone", "z[a] = kept * z[a] - gone",
          "state variable|friction"),
     ],
@@ -142,6 +151,41 @@ def test_other_state_variables_are_not_compared(tmp_path):
     case = one((0.1, 0.0), (0.1, 0.2), (-0.1, 0.0))
     assert rule.agrees(subject, case) is None
     assert not rule._same_layout(subject, laws.law("slip_weakening"))
+
+
+def test_a_subroutine_may_take_what_it_likes(tmp_path):
+    """Only law functions have to refuse too few properties: here the second has a default."""
+    path = tmp_path / "mine.c"
+    path.write_text(
+        "#include <math.h>\n#include <usersub/abi.h>\n#include <omi_for_c.h>\n"
+        "void FOR_NAME(vfric_coef, VFRIC_COEF)(USUB_VFRIC_COEF_PARAMETERS) {\n"
+        "  for (int k = 0; k < *nBlock; ++k)\n"
+        "    fCoef[k] = *nProps > 0 ? props[0] : 0.1;\n"
+        "}\n"
+    )
+    subject = subject_of(path, "coulomb", "vfric_coef")
+    few = list(refusals.too_few(subject, laws.law("coulomb")))
+    assert [case.props for case in few] == [()]
+    assert [rule.agrees(subject, case) for case in few] == [None]
+
+
+@pytest.mark.parametrize("name", laws.LAWS)
+def test_corners_are_special_and_allowed(name):
+    law = laws.LAWS[name]
+    found = list(law_samples.corners(law))
+    assert bool(found) == bool(law.props)
+    assert len(set(found)) == len(found)
+    for props in found:
+        law.of(props)
+
+
+def test_every_second_increment_of_a_corner_is_at_rest():
+    law = laws.LAWS["norton_hoff"]
+    subject = subject_of(law.folder / "law.c", law.name, "fric")
+    assert (1.0, 1.0, 0.0) in set(law_samples.corners(law))
+    case = law_samples.with_rest(subject, law, (1.0, 1.0, 0.0), 15)
+    assert [any(map(any, step.motion)) for step in case.steps] == 3 * [False, True]
+    assert all(step.dt > 0 for step in case.steps)
 
 
 @pytest.mark.parametrize("name", laws.LAWS)

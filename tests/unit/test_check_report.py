@@ -8,11 +8,14 @@ import math
 import pickle
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 from usersub.check.case import Case, Step, one
 from usersub.check.reports import junit
 from usersub.check.reports.report import Head, Report, Result, Value
+from usersub.check.respond.answer import Answer
+from usersub.check.rules.words import told_apart
 from usersub.check.words import case_in_words
 
 CASE = one((1e-2, 0.0), (0.0, -2.5e-3), load=2.0)
@@ -192,3 +195,14 @@ def test_many_points_are_not_all_written_out():
 
 def test_no_motion():
     assert "no motion, pressure 2" in case_in_words(one((0.0, 0.0), load=2.0), "fric")
+
+
+def test_numbers_are_told_with_the_digits_that_tell_them_apart():
+    pair = (0.25, 0.25 + 3e-8)
+    one, other = (Answer(friction=np.array([[x], [1e-17], [2.0]])) for x in pair)
+    assert told_apart(one, other, "friction", 0) == ("(0.25, 0, 2)", "(0.25000003, 0, 2)")
+
+
+def test_numbers_whose_difference_is_next_to_nothing_are_told_in_full():
+    one, other = (Answer(friction=np.array([[1.0], [x]])) for x in (1e-17, 2e-17))
+    assert told_apart(one, other, "friction", 0) == ("(1, 1e-17)", "(1, 2e-17)")

@@ -114,16 +114,17 @@ def test_a_law_function_gives_the_same_bits():
     )
 
 
-def test_runs_end_at_open_points_and_blocks():
+def test_a_call_lists_the_closed_points_of_a_part_of_a_block():
     calls = []
 
     @ctypes.CFUNCTYPE(
         ctypes.c_int32, ctypes.POINTER(ctypes.c_void_p), ctypes.POINTER(ctypes.c_int64),
-        ctypes.c_int32, ctypes.POINTER(ctypes.c_int32),
+        ctypes.POINTER(ctypes.c_int32), ctypes.c_int32, ctypes.POINTER(ctypes.c_int32),
     )  # fmt: skip
-    def entry(argv, stride, count, done):
+    def entry(argv, stride, points, count, done):
         node = face.position("NODE")
-        calls.append((ctypes.c_int32.from_address(argv[node]).value, count))
+        first = ctypes.c_int32.from_address(argv[node]).value - 1
+        calls.append([first + point for point in points[:count]])
         assert stride[node] == 4 and stride[face.position("TAU")] == 16
         assert stride[face.position("PROPS")] == stride[face.position("NFDIR")] == 0
         return 0
@@ -131,13 +132,15 @@ def test_runs_end_at_open_points_and_blocks():
     face = abi.interface("fric")
     address = ctypes.cast(entry, ctypes.c_void_p).value
     routine = Routine(face, "pointer", "entry", "", lambda _: Entry(address, POINTS, entry))
-    made = usersub.StandardDriver(routine, usersub.Scene(points=COUNT, block=120))
+    made = usersub.StandardDriver(routine, usersub.Scene(points=COUNT, block=60))
     pressure = np.ones(COUNT)
-    pressure[[0, 10, 11, 90]] = 0.0
+    open_points = [0, 10, 11, 59, *range(60, 120), 149]
+    pressure[open_points] = 0.0
     made.begin_increment(1.0)
     made.iterate(slip_increment=np.ones((2, COUNT), order="F"), pressure=pressure)
-    # numbers of the first points, from one, and how many
-    assert calls == [(2, 9), (13, 78), (92, 29), (121, 30)]
+    closed = [p for p in range(COUNT) if p not in open_points]
+    # no call for the second block, in which all points are open
+    assert calls == [[p for p in closed if p < 60], [p for p in closed if p >= 120]]
 
 
 memset = ctypes.CDLL(None).memset

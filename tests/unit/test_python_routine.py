@@ -92,10 +92,11 @@ class Call:
             function = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(entry.address)
             return function(ctypes.addressof(self.argv))
         if entry.style == POINTS:
-            types = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int32, ctypes.c_void_p]
+            types = [*[ctypes.c_void_p] * 3, ctypes.c_int32, ctypes.c_void_p]
             function = ctypes.CFUNCTYPE(ctypes.c_int, *types)(entry.address)
             stride, done = (ctypes.c_int64 * len(self.argv))(), ctypes.c_int32(-1)
-            return function(self.argv, stride, 1, ctypes.addressof(done))
+            points = (ctypes.c_int32 * 1)()
+            return function(self.argv, stride, points, 1, ctypes.addressof(done))
         texts = [a for a in self.face.args if a.kind == "char"]
         types = [ctypes.c_void_p] * len(self.argv) + [ctypes.c_size_t] * len(texts)
         function = ctypes.CFUNCTYPE(ctypes.c_int, *types)(entry.address)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 
@@ -63,6 +64,34 @@ def test_the_same_command_goes_on(run, tmp_path):
     other = run("P3", "--language", "c", "--step", "4")
     assert other.exit_code == 1 and "study-P3 holds another study" in other.stderr
     assert run(*words, "--fresh").stdout.count("were there") == 0
+
+
+def test_a_second_study_is_compared(run, tmp_path):
+    words = ("P13", "--language", "c", "--quick", "--interface", "fric", "--repeats", "1")
+    assert run(*words, "--out", "a").exit_code == 0
+    shutil.copytree(tmp_path / "a", tmp_path / "b")  # the same times: there is nothing to run
+    done = run(*words, "--out", "b", "--compare", "a")
+    assert done.exit_code == 0 and ", 0 differ; all of them: comparison.csv" in done.stdout
+    lines = (tmp_path / "b" / "comparison.csv").read_text().splitlines()
+    assert lines[0] == "about,what,here,there,verdict" and len(lines) > 10
+    # A study whose answers are others: what is compared is read from the folder.
+    table = tmp_path / "a" / "results.json"
+    found = json.loads(table.read_text())
+    for row in found["results"]:
+        row["error"] = 0.5
+    table.write_text(json.dumps(found))
+    done = run(*words, "--out", "b", "--compare", "a", "--json")
+    assert done.exit_code == 1
+    told = [c for c in json.loads(done.stdout)["comparison"] if c["verdict"] == "differs"]
+    assert any(c["what"] == "for 1e-3" and "nothing" in c["there"] for c in told)
+
+
+def test_a_folder_to_compare_with_must_hold_a_study(run, tmp_path):
+    done = run("P3", "--language", "c", "--compare", "nowhere")
+    assert done.exit_code == 1 and "holds no finished study" in done.stderr
+    (tmp_path / "results.json").write_text("[")
+    done = run("P3", "--language", "c", "--compare", ".")
+    assert done.exit_code == 1 and "cannot be read" in done.stderr
 
 
 def test_an_interrupted_study_says_so(run, monkeypatch):

@@ -19,11 +19,16 @@ from usersub.study.stability import (
     chapter,
     histories,
     judging,
+    long_laws,
     running,
     subjects,
 )
 from usersub.study.stability.explicit_limits import spring_steps
-from usersub.study.stability.implicit_limits import critical_stiffness, newton_iterations
+from usersub.study.stability.implicit_limits import (
+    critical_stiffness,
+    newton_iterations,
+    of_problems,
+)
 from usersub.study.stability.long_limits import standard_holds
 
 
@@ -183,3 +188,20 @@ def test_the_chapter_has_all_tables():
     limits = [stability.Limit("a", "b", "fric", "c", "double", 1.9, 2.0, "-", "w")]
     text = chapter.text(cells, limits, {"machine": "a"})
     assert "@" not in text and "| dahl |" in text and "0.9500" in text and "5 %" in text
+
+
+def test_uniqueness_is_told_in_words():
+    """P20 says no solution or two; P21 and P22 say what is lost without the full tangent."""
+    p20, p21, p22 = (one.words for one in of_problems())
+    assert "no solution" in p20 and "two solutions" in p20
+    assert "Without DDTDDP" in p21
+    assert "the symmetric part of the tangent misses 4 of 4" in p22
+
+
+def test_no_law_creeps_in_long_cycles_and_holds(monkeypatch):
+    monkeypatch.setattr(long_laws, "SETTLED", 600)
+    found = [*long_laws.cycles(300, 0, 1), *long_laws.holds(300, 0, 1)]
+    assert {one.subject for one in found} >= set(laws.LAWS) - {"rough"}
+    for one in found:
+        if one.theory is not None:
+            assert one.measured <= 1e-12, one

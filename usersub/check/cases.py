@@ -118,6 +118,13 @@ def changing_load(subject: Subject, points: int = 1, directions: int = 2) -> Cas
     return Case(tuple(steps))
 
 
+def plain(subject: Subject, directions: int) -> Iterator[Case]:
+    """A slide, elastic motion, and a slide under a load that changes."""
+    yield slipping(subject, 1, directions)
+    yield sticking(subject, 1, directions)
+    yield changing_load(subject, 2, directions)
+
+
 def held(subject: Subject, points: int = 1, directions: int = 2) -> Case:
     """Slip that the stick force limits (explicit)."""
     made = slipping(subject, points, directions)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from usersub import abi
     from usersub.check.case import Case
     from usersub.check.respond import Answer
+    from usersub.check.running.begin import Beginning
     from usersub.routine.loading import RoutineFile
     from usersub.routine.routine import Routine
 
@@ -72,6 +73,7 @@ class Subject:
         around: names and step numbers that the routine is told.
         others: further ones at which it does something else, to be looked at as well.
         law: name of the built-in law that it claims to be, or "".
+        beginning: what is there before the first contact, once that was found out.
         origin: how each of these values was found, by name, for the head of the report.
     """
 
@@ -92,6 +94,7 @@ class Subject:
     others: tuple[Around, ...] = ()
     law: str = ""
     origin: dict[str, str] = field(default_factory=dict, repr=False)
+    beginning: Beginning | None = field(default=None, repr=False, compare=False)
     tell: Callable[[Case], None] | None = field(default=None, repr=False, compare=False)
 
     def but(self, **changes: Any) -> Subject:

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from usersub.cli.study_targets import Targets
     from usersub.study import Study
 
+#: Of a run with its share of preparation and figures, the mean over all problems on a machine that
+#: does nothing else; and minutes from which it is said how to take less.
+_SECONDS, _LONG = 0.047, 3.0
+
 _FIGURES, _PAGE = "figures", "study.html"
 
 
@@ -37,6 +41,7 @@ def _choice(names: tuple[str, ...]) -> click.Choice:
         "usersub study P5 P6 --interface vfric_coef --method penalty",
         "usersub study my_law.py",
         "usersub study my_law.f90 --law coulomb --props 0.3",
+        "usersub study P13 --out again --compare study-P13",
         "usersub study --stability --language c",
         "usersub study --scheduler tcp://127.0.0.1:8786 --out everything",
     ),
@@ -69,6 +74,8 @@ def _choice(names: tuple[str, ...]) -> click.Choice:
 @click.option("--fresh", is_flag=True, help="Run again what the folder has.")
 @click.option("--html", type=click.Path(dir_okay=False, path_type=Path),
               help="Write the page here, not into the folder.")  # fmt: skip
+@click.option("--compare", type=click.Path(file_okay=False, path_type=Path),
+              help="Say for every conclusion whether the study in this folder agrees.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), default=1, show_default=True,
               help="Processes at a time; more than one disturb each other's times.")  # fmt: skip
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
@@ -78,6 +85,7 @@ def command(
     stability: bool,
     out: Path | None,
     html: Path | None,
+    compare: Path | None,
     as_json: bool,
     **options: Any,
 ) -> int:
@@ -91,14 +99,18 @@ def command(
     The folder (study-PROBLEM by default) gets CSV, JSON, figures and one HTML page. A study that is
     interrupted goes on where it was when the command is given again.
 
-    Exit code: 0 if all points ran and nothing failed.
+    Two runs of one study have other run times. --compare tells which of their conclusions agree,
+    with a folder of an earlier study of the same, and asks for no more runs than are missing.
+
+    Exit code: 0 if all points ran and nothing failed, and nothing differs from --compare.
     """
-    from usersub.cli import study_targets
+    from usersub.cli import study_comparison, study_targets
     from usersub.study.threads import one_thread
 
     one_thread()  # before numpy is imported
     chosen = study_targets.read(targets, stability=stability, **options)
     _require(html)
+    there = study_comparison.other(compare)
     folder = out or Path(study_targets.folder_name(chosen, stability, options["quick"]))
     found = Found()
     with redirect_stdout(sys.stderr):  # what a Python file prints when it is loaded
@@ -106,13 +118,16 @@ def command(
     interrupted = found.study is not None and found.study.unfinished > 0
     if not interrupted:
         _write(found, folder, html)
+        if there is not None:
+            found.comparison = study_comparison.compared(found, there, folder)
     if as_json:
         print_found_json(found)
     else:
         print_found(found, folder)
     if interrupted:
         return INTERRUPTED
-    return OK if _well(found) else FAILED
+    agrees = found.comparison is None or found.comparison.agrees
+    return OK if _well(found) and agrees else FAILED
 
 
 def _require(html: Path | None) -> None:
@@ -149,24 +164,40 @@ def _measure(chosen: Targets, folder: Path, options: dict[str, Any], quiet: bool
         chosen.problems, chosen.laws, chosen.routine or None,
         **{name: options[name] for name in axes}, settings=chosen.settings,
     )  # fmt: skip
-    default = timing.QUICK if options["quick"] else timing.REPEATS
+    repeats = options["repeats"] or (timing.QUICK if options["quick"] else timing.REPEATS)
+    if not quiet:
+        click.echo(_plan(len(grid), repeats, options), err=True)
     with progress("study", quiet) as tell:
         return study(
-            grid, folder, repeats=options["repeats"] or default, jobs=options["jobs"],
+            grid, folder, repeats=repeats, jobs=options["jobs"],
             scheduler=options["scheduler"], fresh=options["fresh"],
             progress=lambda done, whole, p: tell(done, whole, f"{p.problem} {p.interface}"),
         )  # fmt: skip
+
+
+def _plan(count: int, repeats: int, options: dict[str, Any]) -> str:
+    """What is going to be done, about how long it takes, and how to take less."""
+    minutes = count * repeats * _SECONDS / 60.0
+    roughly = f"{minutes:.0f} minutes" if minutes >= 1.5 else "a minute or less"
+    points = f"{count} point{'' if count == 1 else 's'}"
+    words = f"study: {points}, {repeats} runs of each in turns: roughly {roughly}"
+    if minutes < _LONG:
+        return words
+    less = ["names of problems or laws", "--interface, --language and --method"]
+    less = ["--quick", *less] if not options["quick"] else less
+    return f"{words}. Less with {', '.join(less)}; after Ctrl-C the same command goes on"
 
 
 def _extremes(chosen: Targets, options: dict[str, Any], found: Found, quiet: bool) -> None:
     """The stiff and extreme cases: of the user's routines, or of laws and drivers."""
     from usersub.study import stability
 
+    how = {"quick": options["quick"], "jobs": options["jobs"]}
     with progress("stability", quiet) as tell:
         for asked in chosen.for_stability(options):
-            found.cells += stability.matrix(**asked, quick=options["quick"], progress=tell)
+            found.cells += stability.matrix(**asked, **how, progress=tell)
         if not (chosen.routine or chosen.laws):
-            found.limits = stability.limits(quick=options["quick"], progress=tell)
+            found.limits = stability.limits(**how, progress=tell)
 
 
 def _savings(chosen: Targets, options: dict[str, Any], found: Found, quiet: bool) -> list[Any]:
@@ -200,11 +231,12 @@ def _well(found: Found) -> bool:
 
 def _write(found: Found, folder: Path, html: Path | None) -> None:
     """Figures and page; without matplotlib a sentence instead."""
-    from usersub.study import charts, figures, page, pareto
+    from usersub.study import charts, extremes, figures, page, pareto
 
     found.files = list(found.study.files) if found.study else []
     folder.mkdir(parents=True, exist_ok=True)
     parts = {"savings": found.savings, "cells": found.cells, "limits": found.limits}
+    found.files.append(extremes.write(folder, parts))
     target = html or folder / _PAGE
     try:
         (folder / _FIGURES).mkdir(exist_ok=True)

@@ -13,6 +13,7 @@ import click
 from usersub.cli.output import number, print_json, print_table, relative
 
 if TYPE_CHECKING:
+    from usersub.cli.study_comparison import Comparison
     from usersub.study import Result, Study
 
 
@@ -26,6 +27,7 @@ class Found:
     savings: list[Any] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
+    comparison: Comparison | None = None
 
     @property
     def results(self) -> list[Result]:
@@ -50,6 +52,7 @@ def print_found_json(found: Found) -> None:
         cells=[vars(cell) for cell in found.cells], limits=[vars(x) for x in found.limits],
         savings=[vars(saving) for saving in found.savings], missing=found.missing,
         files=[str(file) for file in found.files],
+        comparison=[vars(c) for c in found.comparison.conclusions] if found.comparison else [],
     )  # fmt: skip
 
 
@@ -75,6 +78,8 @@ def print_found(found: Found, folder: Path) -> None:
                 f"{relative(folder)}; the same command goes on"
             )
             return
+    if found.comparison is not None:
+        found.comparison.show()
     pages = [file for file in found.files if file.suffix == ".html"]
     click.echo(f"results: {relative(folder)}" + "".join(f", page: {relative(p)}" for p in pages))
 

@@ -95,7 +95,7 @@ def adapter_source(
     real = {"double": "float64", "single": "float32"}[precision]
     texts = [i for i, a in enumerate(face.args) if a.kind == "char"]
     pointers = [f"argv[{i}]" for i in range(len(face.args))]
-    parameters = "argv, stride, count, done" if style == POINTS else "argv"
+    parameters = "argv, stride, points, count, done" if style == POINTS else "argv"
     lengths = {i: str(abi.NAME_LENGTH) for i in texts}
     if style == FULL:
         pointers = [f"p{i}" for i in range(len(face.args))]
@@ -155,6 +155,6 @@ def _guarded(style: int, own: list[str], call: list[str]) -> list[str]:
         return guarded
     # Views stand before the `try`: numba takes many times as long for those inside.
     return [
-        "for k in range(count):",
-        *(f"    {line}" for line in ["note(done, k)", *own, *guarded]),
+        "for j in range(count):",
+        *(f"    {line}" for line in ["k = points[j]", "note(done, k)", *own, *guarded]),
     ]

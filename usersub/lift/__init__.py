@@ -16,23 +16,34 @@ time_increment, state, props. Derivatives come from dual numbers. How to write o
 from __future__ import annotations
 
 from usersub.lift.decorators import coefficient, strength, traction
-from usersub.lift.functions import aged, asinh_product, bounded_exp, mean_decay, stribeck
+from usersub.lift.functions import (
+    aged,
+    asinh_product,
+    asinh_rate,
+    bounded_exp,
+    log_scaled,
+    mean_decay,
+    stribeck,
+)
 from usersub.lift.law_function import LawFunction
 from usersub.lift.powers import decay_of_power, drop_of_power, product_of_powers
-from usersub.lift.primitives import real
+from usersub.lift.primitives import real, tiny
 
 __all__ = [
     "LawFunction",
     "aged",
     "asinh_product",
+    "asinh_rate",
     "bounded_exp",
     "coefficient",
     "decay_of_power",
     "drop_of_power",
+    "log_scaled",
     "mean_decay",
     "product_of_powers",
     "real",
     "strength",
     "stribeck",
+    "tiny",
     "traction",
 ]

@@ -7,6 +7,7 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types, typing
 from numba.core.datamodel import models
@@ -15,6 +16,7 @@ from numba.core.errors import TypingError
 from numba.core.imputils import impl_ret_borrowed, lower_builtin
 from numba.core.typing.templates import AbstractTemplate, infer_global
 from numba.extending import intrinsic, overload, register_jitable
+from numba.np import numpy_support
 
 from usersub.lift import machine_functions, primitives
 from usersub.lift.machine_dual import F8, REAL, DualType, is_dual, is_number, pack
@@ -114,6 +116,12 @@ def _store(context, builder, signature, values):
                 numbers[i, 1] = primitives.real(_element(duals, 2 * i + 1))
 
     return context.compile_internal(builder, copy, signature, values)
+
+
+@primitive(primitives.tiny, 1, lambda numbers: F8)
+def _tiny(context, builder, signature, values):
+    kind = numpy_support.as_dtype(signature.args[0].dtype)
+    return context.get_constant(F8, float(np.finfo(kind).tiny))
 
 
 @primitive(primitives.real, 1, lambda value: F8 if is_dual(value) else types.unliteral(value))

@@ -77,10 +77,12 @@ def decay_of_power(x, start, end, exponent):
 
     Its derivative at start is the one from above, or 0 where that is infinite (exponent below 1).
     """
-    if x < start or (x == start and exponent != 1.0):
+    if x < start or (x == start and (exponent != 1.0 or not end > start)):
         return 1.0
     if x == start:
         return 1.0 - moved(x) / (end - start)
+    if not end > start:  # a step
+        return 0.0
     share, change = _share(x, start, end)
     power, rest = _exp(_log_of_power(share, real(exponent)))
     if power > 750.0:
@@ -94,7 +96,7 @@ def drop_of_power(x, start, end, exponent):
 
     Derivatives as those of `decay_of_power`.
     """
-    if x < start or (x == start and exponent != 1.0):
+    if x < start or (x == start and (exponent != 1.0 or not end > start)):
         return 1.0
     if x == start:
         return 1.0 - moved(x) / (end - start)

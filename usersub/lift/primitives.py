@@ -89,6 +89,13 @@ def real(value: Any) -> Any:
     return value.value if isinstance(value, Dual) else value
 
 
+def tiny(numbers: Any) -> float:
+    """Smallest normal number of the precision of an array of numbers, such as `props`."""
+    import numpy as np
+
+    return float(np.finfo(getattr(numbers, "dtype", float)).tiny)
+
+
 def partial(value: Any, index: int) -> Any:
     """Derivative number `index`; zero of a value that has none."""
     return value.partials[index] if isinstance(value, Dual) else 0.0

@@ -16,15 +16,19 @@ if TYPE_CHECKING:
 _SUFFIXES = {"python": ".py", "c": ".c", "fortran": ".f90"}
 
 #: Laws of single problems, and where they stand.
-OWN = {"orthotropic": ("fric",), "dahl_theta": ("fric", "vfric", "vfriction")}
+OWN = {
+    "orthotropic": ("fric",),
+    "dahl_theta": ("fric", "vfric", "vfriction"),
+    "ageing_theta": ("fric", "fric_coef", "vfric", "vfriction"),
+}
+
+_THETA_RULE = {"explicit Euler": 0.0, "trapezoidal rule": 0.5, "implicit Euler": 1.0}
 
 #: Other updates of a law's state than its own, which is exact: by law, the routine that has them,
 #: and the property that it takes besides for each.
 UPDATES = {
-    "dahl": (
-        "dahl_theta",
-        {"explicit Euler": 0.0, "trapezoidal rule": 0.5, "implicit Euler": 1.0},
-    ),
+    "dahl": ("dahl_theta", _THETA_RULE),
+    "rate_state_ageing": ("ageing_theta", _THETA_RULE),
 }
 
 

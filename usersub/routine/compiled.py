@@ -139,7 +139,8 @@ def _signature(face: abi.Interface, style: int) -> Any:
 
     arguments: tuple = (types.CPointer(types.voidptr),)
     if style == POINTS:
-        arguments += types.CPointer(types.int64), types.int32, types.CPointer(types.int32)
+        whole = types.CPointer(types.int32)
+        arguments += types.CPointer(types.int64), whole, types.int32, whole
     if style == FULL:
         texts = sum(a.kind == "char" for a in face.args)
         arguments = (types.voidptr,) * len(face.args) + (types.intp,) * texts

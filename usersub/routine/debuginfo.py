@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -49,42 +50,40 @@ _KINDS = {1: "address", 2: "logical", 3: "complex", 4: "real", 5: "int", 6: "cha
 
 def signatures(path: Path, symbols: set[str]) -> dict[str, Signature]:
     """Argument lists of those of `symbols` for which the ELF file has debug information."""
-    from elftools.elf.elffile import ELFFile
-
     found: dict[str, Signature] = {}
-    with path.open("rb") as file:
-        elf = ELFFile(file)
-        if not elf.has_dwarf_info():
-            return found
-        dwarf = elf.get_dwarf_info()
-        for unit in dwarf.iter_CUs():
-            fortran = _value(unit.get_top_DIE(), "DW_AT_language") in (7, 8, 14, 34, 35)
-            for function in _functions(unit.get_top_DIE()):
-                symbol = _symbol(function)
-                if symbol in symbols:
-                    found[symbol] = _signature(dwarf, unit, function, symbol, fortran)
+    for dwarf, unit in _units(path):
+        fortran = _value(unit.get_top_DIE(), "DW_AT_language") in (7, 8, 14, 34, 35)
+        for function in _functions(unit.get_top_DIE()):
+            symbol = _symbol(function)
+            if symbol in symbols:
+                found[symbol] = _signature(dwarf, unit, function, symbol, fortran)
     return found
 
 
 def variables(path: Path) -> dict[str, str]:
     """Where variables and COMMON blocks are declared ("file:line"), by lower-case name, in an ELF
     file with debug information. Of several of one name the first counts."""
+    found: dict[str, str] = {}
+    for dwarf, unit in _units(path):
+        for die in unit.iter_DIEs():
+            if die.tag not in ("DW_TAG_variable", "DW_TAG_common_block"):
+                continue
+            name, line = _text(die, "DW_AT_name"), _value(die, "DW_AT_decl_line")
+            if name and line:
+                found.setdefault(name.lower(), f"{_file(dwarf, unit, die)}:{line}")
+    return found
+
+
+def _units(path: Path) -> Iterator[tuple[Any, Any]]:
+    """Debug information of an ELF file, once with each of its units; nothing without any."""
     from elftools.elf.elffile import ELFFile
 
-    found: dict[str, str] = {}
     with path.open("rb") as file:
         elf = ELFFile(file)
-        if not elf.has_dwarf_info():
-            return found
-        dwarf = elf.get_dwarf_info()
-        for unit in dwarf.iter_CUs():
-            for die in unit.iter_DIEs():
-                if die.tag not in ("DW_TAG_variable", "DW_TAG_common_block"):
-                    continue
-                name, line = _text(die, "DW_AT_name"), _value(die, "DW_AT_decl_line")
-                if name and line:
-                    found.setdefault(name.lower(), f"{_file(dwarf, unit, die)}:{line}")
-    return found
+        if elf.has_dwarf_info():
+            dwarf = elf.get_dwarf_info()
+            for unit in dwarf.iter_CUs():
+                yield dwarf, unit
 
 
 def _functions(top) -> Iterator:

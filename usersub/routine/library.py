@@ -7,6 +7,7 @@ import ctypes
 import os
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from usersub import abi
@@ -71,12 +72,22 @@ def _linked(path: Path, missing: tuple[str, ...]) -> tuple[Path, tuple[str, ...]
         return target, build.link(compiler, path, [part], base.link_flags, target)
 
 
+#: Called with every library that is loaded from now on, if it is not None.
+after_open: Callable[[ctypes.CDLL], None] | None = None
+
+
 def open_library(path: Path) -> ctypes.CDLL:
     """Loads a library of the cache: names kept to itself, every symbol resolved now."""
     try:
-        return ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+        return _opened(ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW))
     except OSError as error:
         raise LoadError(f"{path.name} cannot be loaded: {error}") from error
+
+
+def _opened(loaded: ctypes.CDLL) -> ctypes.CDLL:
+    if after_open is not None:
+        after_open(loaded)
+    return loaded
 
 
 def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
@@ -118,7 +129,7 @@ def open_prebuilt(path: Path, missing: tuple[str, ...]) -> ctypes.CDLL:
         raise LoadError(_needs(path, nowhere))
     _check_tables(path, loaded)
     _redirect_stops(loaded)
-    return loaded
+    return _opened(loaded)
 
 
 def _check_tables(path: Path, loaded: ctypes.CDLL) -> None:

@@ -20,8 +20,8 @@ UNUSED, READS, WRITES, READS_AND_WRITES = 0, 1, 2, 3
 class Entry:
     """An address that can be called: `style` FULL (published argument list with hidden character
     lengths), BLOCK (`int f(void **argv)`) or, for FRIC, POINTS (`int f(void **argv, const int64_t
-    *stride, int count, int *done)`, which is BLOCK for one contact point after the other); `keep`
-    keeps the code alive."""
+    *stride, const int *points, int count, int *done)`, which is BLOCK for one contact point of the
+    list after the other); `keep` keeps the code alive."""
 
     address: int
     style: int

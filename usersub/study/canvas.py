@@ -122,7 +122,7 @@ def _drawn(picture: Picture, letters: str = "path") -> Iterator[Figure]:
     with matplotlib.rc_context(settings), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # odd data make odd figures; readers are told in words
         figure = Figure(
-            figsize=(picture.width, picture.height), layout=ConstrainedLayoutEngine(wspace=0.04)
+            figsize=(picture.width, picture.height), layout=ConstrainedLayoutEngine(wspace=0.08)
         )
         FigureCanvasAgg(figure)
         picture.draw(figure)

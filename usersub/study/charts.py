@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from usersub.study import canvas, words
@@ -44,14 +45,7 @@ def savings(found: Sequence[Saving]) -> list[Picture]:
         "(dark), with everything passed (hatched), and so in a scene that has "
         "everything (dotted). Numbers are the ratios to what is needed."
     )
-    parts = _parts(found, 14)
-    return [
-        Picture(
-            _numbered("leaving-out", k, parts), caption, canvas.PAGE, 1.15 + 0.46 * len(part),
-            lambda figure, part=part: _savings(figure, part),  # type: ignore[misc]
-        )
-        for k, part in enumerate(parts)
-    ]  # fmt: skip
+    return _pictures("leaving-out", _parts(found, 14), caption, (1.15, 0.46), _savings)
 
 
 def _parts(found: Sequence[Any], most: int) -> list[Sequence[Any]]:
@@ -62,8 +56,21 @@ def _parts(found: Sequence[Any], most: int) -> list[Sequence[Any]]:
     return [found[k : k + size] for k in range(0, len(found), size)]
 
 
-def _numbered(name: str, index: int, parts: Sequence[object]) -> str:
-    return name if len(parts) == 1 else f"{name}-{index + 1}"
+def _pictures(
+    name: str,
+    parts: Sequence[Sequence[Any]],
+    caption: str,
+    height: tuple[float, float],
+    draw: Callable[..., None],
+) -> list[Picture]:
+    """A picture of each part, as high as `height` says: without rows, and for each row."""
+    return [
+        Picture(
+            name if len(parts) == 1 else f"{name}-{number}", caption, canvas.PAGE,
+            height[0] + height[1] * len(part), partial(draw, found=part),
+        )
+        for number, part in enumerate(parts, 1)
+    ]  # fmt: skip
 
 
 def _savings(figure: Figure, found: Sequence[Saving]) -> None:
@@ -125,18 +132,12 @@ def matrix(cells: Sequence[Cell]) -> list[Picture]:
         "Stiff and extreme cases. Where the runs of a cell (values, interfaces, languages, "
         f"precisions) differ, it is divided in proportion. Empty: not applicable. Runs: {found}."
     )
-    parts = _parts(list(rows.items()), _ROWS)
-    return [
-        Picture(
-            _numbered("stability", k, parts), caption, canvas.PAGE, 1.45 + 0.19 * len(part),
-            lambda figure, part=part: _matrix(figure, part, cases),  # type: ignore[misc]
-        )
-        for k, part in enumerate(parts)
-    ]  # fmt: skip
+    draw = partial(_matrix, cases=cases)
+    return _pictures("stability", _parts(list(rows.items()), _ROWS), caption, (1.45, 0.19), draw)
 
 
 def _row(cell: Cell, few: bool) -> str:
-    subject = cell.subject.replace("_", " ")
+    subject = words.law(cell.subject)
     if not few:
         return subject
     precision = ", single" if cell.precision == "single" else ""
@@ -144,12 +145,12 @@ def _row(cell: Cell, few: bool) -> str:
 
 
 def _matrix(
-    figure: Figure, rows: Sequence[tuple[str, Sequence[Cell]]], cases: Sequence[str]
+    figure: Figure, found: Sequence[tuple[str, Sequence[Cell]]], cases: Sequence[str]
 ) -> None:
     from matplotlib.patches import Patch, Rectangle
 
     axes = figure.subplots()
-    for row, (_, cells) in enumerate(rows):
+    for row, (_, cells) in enumerate(found):
         for column, case in enumerate(cases):
             here = Counter(cell.verdict for cell in cells if cell.case == case)
             left = column + 0.04
@@ -159,15 +160,15 @@ def _matrix(
                 axes.add_patch(Rectangle((left, row + 0.06), wide, 0.88, linewidth=0.5, **style))
                 left += wide
     axes.set_xlim(0, len(cases))
-    axes.set_ylim(len(rows), 0)
+    axes.set_ylim(len(found), 0)
     turned: dict[str, Any] = {"rotation": 40, "ha": "left", "rotation_mode": "anchor"}
     axes.set_xticks([c + 0.4 for c in range(len(cases))], [_short(c, 24) for c in cases], **turned)
     axes.xaxis.tick_top()
-    axes.set_yticks([r + 0.5 for r in range(len(rows))], [_short(name, 44) for name, _ in rows])
+    axes.set_yticks([r + 0.5 for r in range(len(found))], [_short(name, 44) for name, _ in found])
     axes.tick_params(length=0)
     axes.grid(False)
     axes.spines[:].set_visible(False)
-    shown = {cell.verdict for _, cells in rows for cell in cells}
+    shown = {cell.verdict for _, cells in found for cell in cells}
     handles = [
         Patch(**VERDICTS[v], label=v, linewidth=0.5) for v in VERDICTS if v in shown or v != "fails"
     ]
@@ -190,14 +191,7 @@ def limits(found: Iterable[Limit]) -> list[Picture]:
         "Measured limits divided by those of theory; the grey band is 5 %. Arrows point to values "
         "outside the axis."
     )
-    parts = _parts(known, _ROWS)
-    return [
-        Picture(
-            _numbered("limits", k, parts), caption, canvas.PAGE, 0.85 + 0.19 * len(part),
-            lambda figure, part=part: _limits(figure, part),  # type: ignore[misc]
-        )
-        for k, part in enumerate(parts)
-    ]  # fmt: skip
+    return _pictures("limits", _parts(known, _ROWS), caption, (0.85, 0.19), _limits)
 
 
 def _limits(figure: Figure, found: Sequence[Limit]) -> None:
@@ -226,6 +220,6 @@ def _limits(figure: Figure, found: Sequence[Limit]) -> None:
 
 
 def _name(limit: Limit) -> str:
-    subject = limit.subject.removeprefix("driver: ").replace("_", " ")
+    subject = words.law(limit.subject.removeprefix("driver: "))
     how = limit.interface.upper() + (", single" if limit.precision == "single" else "")
     return f"{limit.name}: {subject} ({how})" if how else f"{limit.name}: {subject}"

@@ -176,7 +176,7 @@ def _slopes(axes: Axes, here: Sequence[Result]) -> None:
     ))  # fmt: skip
     length = min(0.3 * (x1 - x0), 0.12 * (y1 - y0))
     points = [(math.log10(size(run)), math.log10(_error(run))) for run in here]
-    margin, room = 0.06 * (x1 - x0), 0.86 * (y1 - y0) - 4.0 * length
+    margin, room = 0.06 * (x1 - x0), 0.8 * (y1 - y0) - 4.0 * length
     corners = [
         (left, y0 + 0.07 * (y1 - y0) + share * room)
         for share in (0.0, 1.0, 0.5, 0.25, 0.75)

@@ -70,6 +70,7 @@ _STEPS: dict[str, tuple[tuple[str, Ladder | None], ...]] = {
     "P11": (("", Ladder("points", (16, 32, 64, 128))),),
     "P12": (("", Ladder("points", (16, 32, 64, 128))),),
     "P13": (("start", Ladder("steps", (4, 8, 16, 32, 64, 128, 256))), ("", None)),
+    "P15": (("", _SMOOTH),),
     "P17": (("", Ladder("steps", (8, 16, 32, 64))),),
     "P19": (("", _SMOOTH),),
     "P20": (("rigid", None), ("", Ladder("steps", (50, 100, 200, 400, 800)))),

@@ -122,10 +122,17 @@ def _line(axes: Axes, line: Sequence[Result], kind: Kind) -> None:
     axes.plot(x, y, zorder=3, **style)
 
 
+#: Of the markers of the first methods, so that one below another is seen around it.
+_SIZES = (6.0, 4.6, 3.2)
+
+
 def _style(index: int, precision: str) -> dict[str, Any]:
     marker, color = canvas.MARKS[index % len(canvas.MARKS)]
     face = "white" if precision == "single" else color
-    style = {"marker": marker, "color": color, "markerfacecolor": face, "markeredgewidth": 0.9}
+    style: dict[str, Any] = {
+        "marker": marker, "color": color, "markerfacecolor": face, "markeredgewidth": 0.9,
+        "markersize": _SIZES[min(index, len(_SIZES) - 1)],
+    }  # fmt: skip
     if index >= len(canvas.MARKS):  # the same markers again, half of each filled
         style |= {"fillstyle": "bottom", "markerfacecoloralt": "0.8"}
     return style

@@ -6,9 +6,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from usersub.study.words import joined, language, named, number, seconds, short
+from usersub.study.words import joined, language, law, named, number, seconds, short
 
 if TYPE_CHECKING:
     from usersub.study.result import Result
@@ -16,9 +17,8 @@ if TYPE_CHECKING:
 #: Errors that are asked for, coarse to fine.
 TARGETS = (1e-3, 1e-6, 1e-9)
 
-#: Run times within this factor are called equal in words: what two studies tell must agree.
+#: Run times that overlap, or are within this factor of it, are called equal in words.
 SAME = 1.25
-
 
 _ALIKE = 4  # others that are told with a recommendation
 _UNLIKE = 8  # contact points over those of other runs, from which run times are of other work
@@ -48,18 +48,44 @@ class Front:
 
     @property
     def title(self) -> str:
-        """Problem and law."""
-        return f"{self.problem}, {self.law.replace('_', ' ')}" if self.law else self.problem
+        """Problem and law, after the file of a routine."""
+        files = {Path(run.routine).name for run in (*self.runs, *self.refused) if run.routine}
+        named = f"{self.problem}, {law(self.law)}" if self.law else self.problem
+        return ", ".join([*sorted(files), named])
 
     def reaching(self, target: float) -> list[Result]:
-        """Runs with at most this error that take no longer than `SAME` times the fastest of them.
+        """Runs with at most this error that cannot be told to be slower than the fastest of them.
 
         The one to recommend is first: with the least error of two digits, then by its name, so that
         noise of the clock does not choose.
         """
         reached = [run for run in self.runs if run.error <= target]
-        fast = [run for run in reached if run.run_time_s <= SAME * reached[0].run_time_s]
-        return sorted(fast, key=lambda run: (float(f"{run.error:.1e}"), named(run), run.key))
+        fast = [run for run in reached if not any(slower(run, other) for other in reached)]
+        return sorted(fast, key=by_error)
+
+
+def by_error(run: Result) -> tuple[float, str, str]:
+    """Order of runs without a clock: error of two digits, name."""
+    return float(f"{run.error:.1e}"), named(run), run.key
+
+
+def slower(run: Result, other: Result, doubt: float = 1.0) -> bool:
+    """Whether a run is slower than another, by more than what is measured without a reason.
+
+    The quarter of its run times that are least must be above the quarter of the other's that are
+    largest, by more than the factor `SAME`.
+
+    Args:
+        doubt: by how much more, of what is told of two studies (`comparing`).
+    """
+    return interval(run)[0] > SAME * doubt * interval(other)[1]
+
+
+def interval(run: Result) -> tuple[float, float]:
+    """First and third quartile of the run time; its median where there are none."""
+    low, high = run.run_time_low, run.run_time_high
+    median = run.run_time_s
+    return (low if low <= median else median), (high if high >= median else median)
 
 
 def fronts(results: Iterable[Result]) -> list[Front]:
@@ -132,7 +158,7 @@ def recommendation(front: Front, targets: Sequence[float] = TARGETS) -> list[str
         for answer, wanted in answers.items()
     ]
     if missed:
-        least = min(front.runs, key=lambda run: (run.error, run.run_time_s, run.key))
+        least = min(front.runs, key=by_error)
         sentences.append(
             f"Nothing reached {joined([number(t) for t in missed], 'or')}; the least error is "
             f"{_measured(least)} by {named(least)}."

@@ -51,6 +51,14 @@ def language(name: str) -> str:
     return LANGUAGES.get(name, name)
 
 
+def law(name: str) -> str:
+    """A law as it is written: a shipped one in words, any other as its author named it."""
+    from usersub.laws import LAWS
+    from usersub.problems.own import OWN
+
+    return name.replace("_", " ") if name in LAWS or name in OWN else name
+
+
 def method(run: Result) -> str:
     """The method with all that was chosen beside it, without step, block and precision."""
     return ", ".join([run.method, *(_option(name, value) for name, value in run.options)])

@@ -24,6 +24,13 @@
 #define usub_is_normal(x) ((x) >= DBL_MIN && (x) <= DBL_MAX)
 #endif
 
+/* A force that was left at its limit is rounded: up to here times the limit it has not moved on. */
+#ifdef USUB_SINGLE
+#define USUB_ROUNDED (1 + 4 * FLT_EPSILON)
+#else
+#define USUB_ROUNDED (1 + 4 * DBL_EPSILON)
+#endif
+
 /* Largest argument of exp that leaves room for a factor. */
 #ifdef USUB_SINGLE
 #define USUB_MOST_EXPONENT 70.0f
@@ -48,6 +55,18 @@ static inline usub_real usub_mean_decay(usub_real x, usub_real *slope) {
   return mean;
 }
 
+/* Slip over its distance from which on a state is the steady one in all digits. The formulas of the
+ * way there would overflow before their result does. */
+#define USUB_STEADY ((usub_real)1e30)
+
+/* log(factor * above / below) of positive numbers, also where the ratio is no number any more. */
+USUB_MAY_BE_UNUSED static inline usub_real usub_log_scaled(usub_real factor, usub_real above,
+                                                           usub_real below) {
+  const usub_real ratio = above / below, value = factor * ratio;
+  return usub_is_normal(ratio) && usub_is_normal(value) ? log(value)
+                                                        : log(factor) + log(above) - log(below);
+}
+
 /* State variable of the ageing law, d theta/dt = 1 - rate theta/distance, after an increment, and
  * its derivative by the rate. Exact for a constant rate, without cancellation at small and overflow
  * at large slip. */
@@ -56,6 +75,11 @@ USUB_MAY_BE_UNUSED static inline usub_real usub_aged(usub_real theta, usub_real 
                                                      usub_real *by_rate) {
   const usub_real x = rate * time_increment / distance, kept = theta * exp(-x);
   usub_real slope;
+  if (x > USUB_STEADY) {
+    const usub_real steady = distance / rate;
+    *by_rate = -steady / rate;
+    return steady > USUB_TINY ? steady : USUB_TINY;
+  }
   const usub_real grown = time_increment * usub_mean_decay(x, &slope);
   *by_rate = time_increment / distance * (time_increment * slope - kept);
   return kept + grown > USUB_TINY ? kept + grown : USUB_TINY;
@@ -78,6 +102,21 @@ USUB_MAY_BE_UNUSED static inline usub_real usub_asinh_product(usub_real ratio, u
   *by_exponent = x / root;
   *by_ratio = factor / root;
   return asinh(x);
+}
+
+/* asinh(rate/reference exp(exponent)) for rate >= 0 and reference > 0, where rate/reference, too,
+ * may be too large for a number; derivatives by rate and by exponent. */
+USUB_MAY_BE_UNUSED static inline usub_real usub_asinh_rate(usub_real rate, usub_real reference,
+                                                           usub_real exponent, usub_real *by_rate,
+                                                           usub_real *by_exponent) {
+  /* 2^-64 and its logarithm: what the ratio is smaller by, the exponential is larger by */
+  const usub_real less = (usub_real)5.421010862427522e-20, more = (usub_real)44.3614195558365;
+  const int far = !(rate / reference < (sizeof(usub_real) == sizeof(double) ? DBL_MAX : FLT_MAX));
+  const usub_real unit = far ? less : 1;
+  const usub_real value = usub_asinh_product(
+      unit * rate / reference, far ? exponent + more : exponent, by_rate, by_exponent);
+  *by_rate *= unit / reference;
+  return value;
 }
 
 /* Coefficient of steady sliding of a Stribeck curve without viscous part,

@@ -103,10 +103,11 @@ int32_t usub_routine_open(const char *library, const char *interface, const char
  *               USUB_STYLE_BLOCK: `int f(void **argv)`, the arguments in their order, returns 0 or
  *               a negative status;
  *               USUB_STYLE_POINTS (FRIC): `int32_t f(void **argv, const int64_t *stride,
- *               int32_t count, int32_t *done)`, the same for `count` contact points one after the
- *               other; argument i of point k is at argv[i] plus k * stride[i] bytes, where numbers
- *               that give sizes and names have stride 0. It sets *done to k before it begins with
- *               point k, and returns at the first point that fails.
+ *               const int32_t *points, int32_t count, int32_t *done)`, the same for the contact
+ *               points k = points[0], ..., points[count - 1] one after the other; argument i of
+ *               point k is at argv[i] plus k * stride[i] bytes, where numbers that give sizes and
+ *               names have stride 0. It sets *done to k before it begins with point k, and returns
+ *               at the first point that fails.
  */
 int32_t usub_routine_create(const char *interface, const char *generation, const char *precision,
                             int32_t style, usub_entry entry, usub_routine **routine,

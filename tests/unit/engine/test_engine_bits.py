@@ -74,6 +74,27 @@ def test_blocks_and_threads_leave_the_same_bits(
         assert history(c_routine, made(block, threads)) == wanted, (block, threads)
 
 
+@pytest.mark.parametrize("precision", ["double", "single"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_slips_close_to_the_normal_leave_the_same_bits(c_routine, dimension, precision):
+    """Points at once against one by one: from slips in the plane to slips that are all rounding
+    there, which are projected twice, some with zeros of either sign."""
+    points = 96
+
+    def forces(block: int) -> bytes:
+        host = ee.Host("vfric_coef", points, dimension, precision=precision, block=block)
+        normal, slip = host.arrays["normal"], host.arrays["slip_increment"]
+        normal[:, ::5] = 0
+        normal[-1, ::5] = -1
+        slip *= np.logspace(0, -19, points, dtype=host.real) / np.linalg.norm(slip, axis=0)
+        slip[0, ::10] = -0.0
+        slip += normal * np.where(np.arange(points) % 3 == 0, 1, 2).astype(host.real)
+        driver = usersub.ExplicitDriver(law(c_routine, "vfric_coef", precision), host.scene())
+        return run(driver, bindable(driver, host)).force.tobytes()
+
+    assert forces(0) == forces(1)
+
+
 @given(seed=st.integers(0, 2**32 - 1), points=st.integers(1, 12), data=st.data())
 @settings(max_examples=25)
 def test_random_geometry(c_routine, seed, points, data):

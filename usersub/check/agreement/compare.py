@@ -177,7 +177,7 @@ class Comparison:
         self, subject: Subject, answers: list[Answer]
     ) -> list[dict[str, np.ndarray]]:
         spread = [{n: np.zeros_like(a, float) for n, a in w.arrays().items()} for w in answers]
-        for factor, moved, props in _moved(self.case, subject):
+        for factor, moved, props in _moved(self.case, subject, rest=subject is self.truth):
             way = replace(self.way, turn=_TURN * factor)
             others = respond_to(subject.but(props=props), moved, way)
             for index, sums in enumerate(spread):
@@ -321,18 +321,21 @@ class Scales:
         return np.array(rows) if rows else np.zeros_like(load)
 
 
-def _moved(case: Case, truth: Subject) -> Iterator[tuple[float, Case, tuple[float, ...]]]:
+def _moved(
+    case: Case, subject: Subject, rest: bool
+) -> Iterator[tuple[float, Case, tuple[float, ...]]]:
     """The case with every input moved by some units in the last place, one kind after the other,
-    and the factor by which."""
-    real = np.float32 if truth.precision == "single" else np.float64
+    and the factor by which; with `rest`, motions of nothing too: what the law does there is its
+    affair, but a routine has to do the same."""
+    real = np.float32 if subject.precision == "single" else np.float64
     unit = _MOVED * float(np.finfo(real).eps)
     way = max(math.hypot(*m) for s in case.steps for m in s.motion)
-    props = truth.props
+    props = subject.props
     for factor in (1.0 + unit, 1.0 - unit):
         other = 2.0 - factor
         changes: tuple[Callable[[int, Step], Step], ...] = (
             lambda k, s: _scaled(s, motion=factor),  # noqa: B023 - used before the next round
-            lambda k, s: _nudged(s, (factor - 1.0) * way),  # noqa: B023
+            *([lambda k, s: _nudged(s, (factor - 1.0) * way)] * rest),  # noqa: B023
             lambda k, s: _scaled(s, load=factor),  # noqa: B023
             # So that forces of the increment before are not those of the limit now.
             lambda k, s: _scaled(s, load=factor if k % 2 else other),  # noqa: B023

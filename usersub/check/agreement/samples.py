@@ -4,7 +4,7 @@ decades from a fixed seed, at the bounds of the properties and at the values tha
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Draws of properties, and histories for each.
 DRAWS, HISTORIES = 50, 3
+#: Draws of properties at which formulas simplify.
+CORNERS = 24
 #: Most points of an axis of a table, field variables of a table, and elements of a law.
 _AXIS, _FIELDS = 3, 2
 #: Decade of extreme motions, by precision: with what is drawn around it, no input overflows.
@@ -36,10 +38,24 @@ _LONG = 64.0
 def props(law: Law, seed: int = 1, draws: int = DRAWS) -> Iterator[tuple[float, ...]]:
     """Lists of properties that the law allows: its example first, then what is drawn."""
     yield law(**law.example).props
-    random = np.random.default_rng(seed)
+    yield from _several(law, _drawn, np.random.default_rng(seed), draws)
+
+
+def corners(law: Law, seed: int = 1, draws: int = CORNERS) -> Iterator[tuple[float, ...]]:
+    """Lists of properties that are all special: at a bound, one, or as in the example. A branch may
+    be taken only where several of them meet."""
+    yield from dict.fromkeys(_several(law, _special, np.random.default_rng(seed), draws))
+
+
+def _several(
+    law: Law,
+    draw: Callable[[Law, Prop, np.random.Generator], float],
+    random: np.random.Generator,
+    draws: int,
+) -> Iterator[tuple[float, ...]]:
     for _ in range(draws if law.props else 0):
         values: dict[str, Any] = {
-            p.name: _drawn(law, p, random) for p in law.props if p.given and not p.shape
+            p.name: draw(law, p, random) for p in law.props if p.given and not p.shape
         }
         values |= _arrays(law, random)
         _order(law, values)
@@ -72,6 +88,17 @@ def _drawn(law: Law, prop: Prop, random: np.random.Generator) -> float:
         highs = [b for b in (within.at_most, within.below) if b is not None]
         value = random.uniform(low, min(highs)) if highs else low + abs(value) + 0.1
     return float(value)
+
+
+def _special(law: Law, prop: Prop, random: np.random.Generator) -> float:
+    within = prop.range
+    if within.choices:
+        return float(random.choice(within.choices))
+    known: Any = law.example.get(prop.name, prop.default)
+    found = [x for x in (within.at_least, within.at_most) if x is not None]
+    found += [1.0] if within.allows(1.0) else []
+    found += [float(known)] if isinstance(known, int | float) and within.allows(known) else []
+    return float(random.choice(found)) if found else _drawn(law, prop, random)
 
 
 def _order(law: Law, values: dict[str, Any]) -> None:
@@ -145,6 +172,18 @@ def histories(
         points = 1 + number % 3
         steps = _steps(subject, law, values, points, directions, random)
         yield Case(tuple(steps), contact=contact, props=tuple(float(v) for v in values))
+
+
+def with_rest(subject: Subject, law: Law, values: Sequence[float], seed: int) -> Case:
+    """A case with properties `values` in which every second increment is one of rest,
+    and all of them take time."""
+    steps = list(_steps(subject, law, values, 2, 2, np.random.default_rng(seed)))
+    for index, step in enumerate(steps):
+        still = tuple((0.0,) * len(m) for m in step.motion)
+        steps[index] = replace(
+            step, dt=step.dt or steps[0].dt, motion=step.motion if index % 2 else still
+        )
+    return Case(tuple(steps), props=tuple(float(v) for v in values))
 
 
 def extremes(subject: Subject, law: Law, values: Sequence[float], seed: int = 1) -> Iterator[Case]:

@@ -15,6 +15,7 @@ from usersub.check.page.canvas import drawn
 from usersub.check.page.figures import Data
 from usersub.check.page.html import Html, element, join, paragraph
 from usersub.check.rule import COEFFICIENT
+from usersub.check.running import begin
 
 if TYPE_CHECKING:
     from usersub.check.page.safely import Budget, Tried
@@ -160,6 +161,7 @@ def of_routine(subject: Subject, budget: Budget, name: str) -> Html:
         del kinds["directions"]
     if not subject.temperatures and not subject.fields:
         del kinds["dependence"]
+    begin.use(subject)
     tried = budget.tried({key: partial(k.compute, subject) for key, k in kinds.items()})
     return join(_figure(kind, tried[key], f"{name}-{key}") for key, kind in kinds.items())
 
@@ -186,6 +188,7 @@ def of_case(subject: Subject, result: Result, budget: Budget, name: str) -> Html
     """The failing case of a result drawn."""
     case = result.case
     assert case is not None
+    begin.use(subject)
     tried = budget.tried({"case": partial(history.answers, subject, case)})["case"]
     mark = history.mark_of(case, result.figures)
     what = "what it is about" if result.severity == "note" else "the fault"

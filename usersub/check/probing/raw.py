@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from usersub import abi
-from usersub.check.clocks import processor_time
+from usersub.check.clocks import is_late, processor_time
 from usersub.check.probing.raw_values import allocated, fill
 from usersub.routine.routine import BLOCK, FULL, POINTS, Entry
 
@@ -38,9 +38,8 @@ if TYPE_CHECKING:
 _POINTS = ("nblock", "ncontact", "nslvnod", "nblockanal", "nblockedge", "numdeftfv")
 #: What a child process says at the end: the routine came back; it gave a status of failure.
 _RETURNED, _FAILED = b"\0", b"\1"
-#: Seconds between two looks at a child over its time; by the clock it may take so many times as
-#: long as it may compute.
-_LOOK, _PATIENCE = 0.05, 10.0
+#: Seconds between two looks at a child over its time.
+_LOOK = 0.05
 
 
 @dataclass(frozen=True)
@@ -173,10 +172,11 @@ class RawCall:
             return kind(self.entry.address)(pointers)
         assert self.entry.style == POINTS
         strides, done = (ctypes.c_int64 * len(addresses))(), ctypes.c_int32(0)
+        first = (ctypes.c_int32 * 1)()
         kind = ctypes.CFUNCTYPE(
-            ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int32, ctypes.c_void_p
+            ctypes.c_int32, *[ctypes.c_void_p] * 3, ctypes.c_int32, ctypes.c_void_p
         )
-        return kind(self.entry.address)(pointers, strides, 1, ctypes.byref(done))
+        return kind(self.entry.address)(pointers, strides, first, 1, ctypes.byref(done))
 
     def run_apart(self, seconds: float = 2.0, times: int = 1) -> Ended:
         """Calls the routine in a child process, `times` times with what the call before left.
@@ -226,7 +226,7 @@ def _ended(child: int, reader: int, seconds: float) -> Ended:
         if not select.select([reader], [], [], left if left > 0.0 else _LOOK)[0]:
             waited = time.monotonic() - start
             computed = processor_time(child)
-            late = computed is None or computed > 0.9 * seconds or waited > _PATIENCE * seconds
+            late = computed is None or is_late(waited, computed, seconds)
             if late:
                 os.kill(child, signal.SIGKILL)
         elif not (more := os.read(reader, 1 << 16)):

@@ -99,6 +99,10 @@ def _values(subject: Subject) -> list[Value]:
         Value(words.get(k, k), v, origin.get(k.partition(",")[0], "default"))
         for k, v in shown.items()
     ]
+    if "files" in origin:
+        made.append(Value("files", origin["files"], "named in the source; copied for each rule"))
+    if "start" in origin:
+        made.append(Value("before contact", origin["start"], ""))
     scales = []
     for entry in fields(subject.scales):
         value = getattr(subject.scales, entry.name)

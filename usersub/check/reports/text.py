@@ -80,17 +80,23 @@ def summary(report: Report) -> str:
 
 
 def count_lines(report: Report) -> Iterator[str]:
-    """A table: passed, failed, not checked, by group of rules."""
+    """A table by group of rules: how many passed, failed, warned ..., in the words of `summary`."""
     groups = list(dict.fromkeys(r.group for r in report.results))
     if not groups:
         return
+    names = {"error": "failed", "warning": "warned", "note": "noted"}
+    used = {"error", *(r.severity for r in report.results if r.verdict == FAIL)}
+    heads = ["passed", *(names[s] for s in names if s in used), "not checked"]
     width = max(len("rules"), *map(len, groups))
-    yield f"  {'rules':<{width}}  passed  failed  not checked"
+    yield f"  {'rules':<{width}}  {'  '.join(heads)}"
     for group in groups:
         mine = [r for r in report.results if r.group == group]
-        passed = sum(r.verdict == PASS for r in mine)
-        failed = sum(r.verdict == FAIL for r in mine)
-        yield f"  {group:<{width}}  {passed:>6}  {failed:>6}  {len(mine) - passed - failed:>11}"
+        numbers = [sum(r.verdict == PASS for r in mine)]
+        failed = [r for r in mine if r.verdict == FAIL]
+        numbers += [sum(r.severity == s for r in failed) for s in names if s in used]
+        numbers.append(len(mine) - sum(numbers))
+        row = "  ".join(f"{n:>{len(h)}}" for n, h in zip(numbers, heads, strict=True))
+        yield f"  {group:<{width}}  {row}"
 
 
 def not_checked_lines(report: Report) -> Iterator[str]:

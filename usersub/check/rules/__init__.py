@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 
 from usersub.check.rule import RULES, Rule
 
@@ -39,8 +39,7 @@ _MODULES = (
 def all_rules() -> dict[str, Rule]:
     """Every rule by identifier, in the order in which they run."""
     for name in _MODULES:
-        if importlib.util.find_spec(f"usersub.check.rules.{name}"):
-            importlib.import_module(f"usersub.check.rules.{name}")
+        importlib.import_module(f"usersub.check.rules.{name}")
     order = {f"usersub.check.rules.{name}": place for place, name in enumerate(_MODULES)}
     made = sorted(RULES.values(), key=lambda rule: order.get(rule.look.__module__, len(order)))
     return {rule.id: rule for rule in made}

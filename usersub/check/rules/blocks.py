@@ -11,9 +11,11 @@ from usersub.check.case import Case
 from usersub.check.respond.answer import Answer
 from usersub.check.rule import EXPLICIT, CannotCheck, Finding, NotApplicable, rule
 from usersub.check.rules import indices
-from usersub.check.rules.words import first_unlike, value_at
+from usersub.check.rules.words import first_unlike, told_apart
 from usersub.check.subject import Subject
 
+#: Field and state variables beyond those that the routine reads.
+_MORE = 2
 _REFERENCE = "every point of a call has its own arguments; how many share a call is the host's"
 
 
@@ -37,14 +39,13 @@ def _blocks(subject: Subject) -> Iterator[Case]:
 )
 def permute(subject: Subject, case: Case) -> Finding | None:
     """Other orders of the points, same bits."""
-    straight = _answers(subject, case)
-    n = case.points
-    for order in (tuple(reversed(range(n))), (*range(1, n), 0)):
-        shuffled = subject.respond(case.but(order=order))
-        found = _unlike(straight, shuffled)
-        if found:
-            detail = f"in the order {_counted(order)} of the points {found}"
-            return Finding(detail, hint=indices.own_point(subject))
+    for seen, words, straight in _with_more(subject, case):
+        n = case.points
+        for order in (tuple(reversed(range(n))), (*range(1, n), 0)):
+            found = _unlike(straight, seen.respond(case.but(order=order)))
+            if found:
+                detail = f"{words}in the order {_counted(order)} of the points {found}"
+                return Finding(detail, hint=indices.own_point(subject, "field var" in words))
     return None
 
 
@@ -57,12 +58,12 @@ def permute(subject: Subject, case: Case) -> Finding | None:
 )
 def split(subject: Subject, case: Case) -> Finding | None:
     """Other block sizes, same bits."""
-    whole = _answers(subject, case)
-    for size in range(1, min(case.points, 4)):
-        found = _unlike(whole, subject.respond(case, block=size))
-        if found:
-            detail = f"in blocks of {size} instead of {case.points} points {found}"
-            return Finding(detail, hint=indices.own_point(subject))
+    for seen, words, whole in _with_more(subject, case):
+        for size in range(1, min(case.points, 4)):
+            found = _unlike(whole, seen.respond(case, block=size))
+            if found:
+                detail = f"{words}in blocks of {size} instead of {case.points} points {found}"
+                return Finding(detail, hint=indices.own_point(subject, "field var" in words))
     return None
 
 
@@ -89,6 +90,27 @@ def many_points(subject: Subject) -> Iterator[Finding]:
             return
 
 
+def _with_more(subject: Subject, case: Case) -> Iterator[tuple[Subject, str, list[Answer]]]:
+    """The subject, then with more field and more state variables than it reads, as a model may
+    have; what to say of that, and the answers to the case.
+
+    With one of them, exchanged subscripts (fieldSec(k,1) for fieldSec(1,k)) are the same element.
+    """
+    yield subject, "", _answers(subject, case)
+    for name, words in (("fields", "field"), ("states", "state")):
+        count = getattr(subject, name)
+        if not count or case.state is not None:
+            continue
+        more = subject.but(**{name: count + _MORE})
+        given = more.scales.fields
+        if name == "fields" and given:
+            grown = (*given, *(given[-1] + 0.25 * k for k in range(1, _MORE + 1)))
+            more = more.but(scales=replace(more.scales, fields=grown))
+        answers = more.respond(case)
+        if answers[-1].failure is None:  # it may want exactly as many as it reads
+            yield more, f"with {count + _MORE} {words} variables, ", answers
+
+
 def _answers(subject: Subject, case: Case) -> list[Answer]:
     answers = subject.respond(case)
     if answers[-1].failure is not None:
@@ -104,8 +126,8 @@ def _unlike(ones: list[Answer], others: list[Answer]) -> str:
     if found is None:
         return ""
     step, name, point = found
-    one, other = value_at(ones[step], name, point), value_at(others[step], name, point)
-    return f"{name} of point {point + 1} in step {step + 1} is {other}, expected {one}"
+    one, other = told_apart(ones[step], others[step], name, point)
+    return f"{name} of point {point + 1} in increment {step + 1} is {other}, expected {one}"
 
 
 def _counted(order: tuple[int, ...]) -> str:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from usersub.check import cases
 from usersub.check.probing.watching import MEMORY, watch
 from usersub.check.rule import CannotCheck, Finding, NotApplicable, rule
-from usersub.check.rules.words import first_unlike, value_at
+from usersub.check.rules.words import first_unlike, told_apart
 from usersub.check.source import arguments, constants, statics, unset
 from usersub.check.subject import Subject
 
@@ -134,7 +134,7 @@ def _by_first_values(subject: Subject, named: str, where: str) -> Finding | None
         if unlike is None:
             continue
         step, name, point = unlike
-        one, other = (value_at(a[step], name, point) for a in (ones, others))
+        one, other = told_apart(ones[step], others[step], name, point)
         return Finding(
             f"the result depends on what a local variable holds before it is set: {name} is {one} "
             f"if variables begin with zeros, {other} if not{named}",

@@ -37,12 +37,9 @@ _WRONG = re.compile(
 
 
 def unusual(subject: Subject) -> Iterator[Case]:
-    """Motions, loads and time increments that are very small or large, and loads of nothing."""
-    slip, dt = subject.scales.slip, subject.scales.dt
+    """Motions, loads and time increments that are very small or large."""
     for exponent in _NEAR[subject.precision]:
         yield from _of_exponent(subject, exponent)
-    for exponent in _DENORMAL[subject.precision]:
-        yield _case(subject, slip, _power(exponent, subject.precision), dt)
 
 
 def beyond(subject: Subject) -> Iterator[Case]:
@@ -80,7 +77,7 @@ def _case(subject: Subject, slip: float, load: float, dt: float) -> Case:
 
 @rule(
     "extremes.finite",
-    "Finite input, from 1e-30 to 1e30 and down to no load, gives finite friction or a cut-back.",
+    "Finite input, from 1e-30 to 1e30, gives finite friction or a cut-back.",
     reference="iterations that diverge pass such numbers before the host cuts the increment back",
     cases=unusual,
     seconds=20.0,

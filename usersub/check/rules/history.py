@@ -15,7 +15,7 @@ from usersub.check.probing.elsewhere import FreshProcess
 from usersub.check.respond import run_of
 from usersub.check.respond.answer import Answer
 from usersub.check.rule import STANDARD, CannotCheck, Finding, NotApplicable, rule
-from usersub.check.rules.words import failed, first_unlike, value_at
+from usersub.check.rules.words import failed, first_unlike, told_apart
 from usersub.check.subject import Subject
 from usersub.errors import Error
 
@@ -30,9 +30,7 @@ _STATE = (
 
 def _histories(subject: Subject) -> Iterator[Case]:
     for directions in cases.dimensions(subject):
-        yield cases.slipping(subject, 1, directions)
-        yield cases.sticking(subject, 1, directions)
-        yield cases.changing_load(subject, 2, directions)
+        yield from cases.plain(subject, directions)
 
 
 @rule(
@@ -86,7 +84,7 @@ def _iteration_hint(subject: Subject) -> str:
         return _STATE
     last = (
         "DSLIP and LM hold on entry what the routine returned in the last iteration: friction must "
-        "not depend on them"
+        "not depend on them, nor on what is kept from call to call (SAVE, COMMON)"
     )
     return f"{last}; {_STATE}" if subject.states else last
 
@@ -164,7 +162,7 @@ def _told(
     if found is None:
         return None
     step, name, point = found
-    one, other = value_at(ones[step], name, point), value_at(others[step], name, point)
+    one, other = told_apart(ones[step], others[step], name, point)
     step += first_step
-    detail = f"{how} {name} of point {point + 1} in step {step + 1} is {other}, expected {one}"
+    detail = f"{how} {name} of point {point + 1} in increment {step + 1} is {other}, expected {one}"
     return Finding(detail, hint=_STATE, figures={"step": step, "point": point})

@@ -48,10 +48,12 @@ def beyond(subject: Subject, argument: str, sentence: str) -> str:
     return hint
 
 
-def own_point(subject: Subject) -> str:
-    """What to do where points depend on each other."""
+def own_point(subject: Subject, fields: bool = False) -> str:
+    """What to do where points depend on each other, and that with more field variables."""
     face = subject.interface
-    listed = ", ".join(declared(face, name) for name in _MIXED[face.name])
+    first = [f for f in ("fieldSec", "preDefSec", "fieldAvg") if f.lower() in face.positions]
+    names = (*first, *_MIXED[face.name]) if fields else _MIXED[face.name]
+    listed = ", ".join(declared(face, name) for name in dict.fromkeys(names))
     hint = (
         "set every variable anew for each point, and index every array with the right dimensions: "
         f"{listed}"

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from usersub import laws
 from usersub.check import cases
+from usersub.check.agreement import refusals
 from usersub.check.agreement import samples as law_samples
 from usersub.check.agreement import truth as law_truth
 from usersub.check.agreement.compare import Comparison, Scales, Way, respond_to, tolerance, worst
@@ -35,11 +36,14 @@ def _cases(subject: Subject) -> Iterator[Case]:
     for entry in law_truth.known(subject, law):
         yield entry.case
     yield from cases.common(subject)
+    yield from refusals.too_few(subject, law)
     for seed, values in enumerate(law_samples.props(law), 1):
         yield from law_samples.histories(subject, law, values, seed)
         # Forces that are products of motions; rates that overflow nobody could pass on.
         if law.kind == "bristle" and seed % _EXTREME_EVERY == 1:
             yield from law_samples.extremes(subject, law, values, seed)
+    for seed, values in enumerate(law_samples.corners(law), 1):
+        yield law_samples.with_rest(subject, law, values, seed)
 
 
 def _law(subject: Subject) -> Law:
@@ -63,6 +67,8 @@ def _law(subject: Subject) -> Law:
 def agrees(subject: Subject, case: Case) -> Finding | None:
     """Compares with the law as it is shipped, and with its reference values."""
     law = _law(subject)
+    if case.props is not None and not _takes(law, case.props):
+        return refusals.finding(subject, law, case)
     ours = law_truth.sized(subject, law, case)
     exact = _exact_values(subject, law, case)
     if exact is not None:
@@ -77,6 +83,14 @@ def agrees(subject: Subject, case: Case) -> Finding | None:
         if found is not None:
             return found
     return None
+
+
+def _takes(law: Law, props: Sequence[float]) -> bool:
+    try:
+        law.of(props)
+    except Error:
+        return False
+    return True
 
 
 def _ways(subject: Subject, case: Case) -> Iterator[Way]:

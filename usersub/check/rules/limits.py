@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Limits of a law: friction at rest against friction at the highest rates."""
+"""Rates: friction at rest against friction at the highest rates, and what a rate is made of."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ def _rates(subject: Subject) -> Iterator[Case]:
 
 @rule(
     "limits.rate",
-    "Friction that has a limit at rest and one at high rates is higher at rest.",
+    "Slip rates are made with the time increment; friction with a limit at rest and one at high "
+    "rates is higher at rest.",
     reference="static friction is above kinetic friction; exponential laws are written with their "
-    "limits exchanged",
+    "limits exchanged. The slip that a routine is given is that of the increment, not of the step",
     severity="warning",
     cases=_rates,
 )
@@ -39,6 +40,8 @@ def rate(subject: Subject, case: Case) -> Finding | None:
     """The same slide in times over many orders of magnitude."""
     if subject.law:
         raise NotApplicable(f"the law {subject.law} says what its limits are, see law.agrees")
+    if subject.interface.name not in COEFFICIENT and _by_step_time(subject, case):
+        return Finding(_BY_STEP_TIME, hint=_INCREMENT)
     found = {}
     for decade in _DECADES:
         dt = case.steps[-1].dt * 10.0**-decade
@@ -58,6 +61,39 @@ def rate(subject: Subject, case: Case) -> Finding | None:
         "exp(-dc rate)",
         figures={"step": len(case.steps) - 1, "point": 0, "sizes": sizes},
     )
+
+
+_BY_STEP_TIME = (
+    "friction depends on the slip of the increment over the step time: it stays the same if both "
+    "are doubled, changes with either of them, and not with the time increment"
+)
+_INCREMENT = (
+    "divide the slip of the increment by the time increment: DGAM by DTIME, dSlipFric by dTimCur "
+    "or rData(3)"
+)
+
+
+def _by_step_time(subject: Subject, case: Case) -> bool:
+    """Whether a slide shows a rate that is made with the time of the step."""
+
+    def sizes(*changes: tuple[float, float, float]) -> list[float]:
+        """Friction with the motion, the time before it and its own time times these."""
+        found = []
+        for motion, before, own in changes:
+            *firsts, last = case.steps
+            firsts = [replace(s, dt=s.dt * before) for s in firsts]
+            moved = tuple(tuple(c * motion for c in m) for m in last.motion)
+            last = replace(last, motion=moved, dt=last.dt * own, stick=(_BOUNDLESS,) * case.points)
+            found.append(_size(subject, case.but(steps=(*firsts, last))))
+        return found
+
+    before, own = (sum(s.dt for s in part) for part in (case.steps[:-1], case.steps[-1:]))
+    shift = 1.0 + 0.5 * own / before  # half of the last increment's time goes to those before
+    first, both, other, longer, farther = sizes(
+        (1.0, 1.0, 1.0), (2.0, 2.0, 2.0), (1.0, shift, 0.5), (1.0, 2.0, 2.0), (2.0, 1.0, 1.0)
+    )
+    same = all(abs(s - first) <= 1e-9 * first for s in (both, other))
+    return same and all(abs(s - first) > 1e-4 * first for s in (longer, farther))
 
 
 def _settled(pair: list[float]) -> bool:

@@ -67,7 +67,7 @@ def _tangent_left(subject: Subject, case: Case) -> Finding | None:
         points = np.flatnonzero(answer.lm == 0)
         if points.size:
             return Finding(
-                f"{left[0]} is never written, although LM = 0 in step {step + 1}",
+                f"{left[0]} is never written, although LM = 0 in increment {step + 1}",
                 hint="set it on every path through the routine",
                 figures={"step": step, "point": int(points[0])},
             )
@@ -99,8 +99,8 @@ def _force_left(subject: Subject, case: Case) -> Finding | None:
     index, point = left
     load = case.steps[index].load[point]
     return Finding(
-        f"fTangential of point {point + 1} is not set in step {index + 1}, where it slides under "
-        f"the normal force {load:g}; it keeps the zero of the host, so there is no friction",
+        f"fTangential of point {point + 1} is not set in increment {index + 1}, where it slides "
+        f"under the normal force {load:g}; it keeps the zero of the host, so there is no friction",
         hint="set it on every path through the routine",
         figures={"step": index, "point": point},
     )

@@ -13,7 +13,7 @@ from usersub.check.case import Case
 from usersub.check.probing.elsewhere import FreshProcess
 from usersub.check.respond.answer import Answer
 from usersub.check.rule import CannotCheck, Finding, NotApplicable, rule
-from usersub.check.rules.words import failed, first_unlike, value_at
+from usersub.check.rules.words import failed, first_unlike, told_apart
 from usersub.check.source import statics, unset
 from usersub.check.subject import Subject
 
@@ -25,9 +25,7 @@ HINT = (
 
 def _repeated(subject: Subject) -> Iterator[Case]:
     for directions in cases.dimensions(subject):
-        yield cases.slipping(subject, 1, directions)
-        yield cases.sticking(subject, 1, directions)
-        yield cases.changing_load(subject, 2, directions)
+        yield from cases.plain(subject, directions)
         if subject.interface.solver == "explicit":
             made = cases.slipping(subject, 1, directions)
             yield made.but(steps=made.steps[1:])  # at once, with what a routine may have kept
@@ -126,8 +124,7 @@ def told(how: str, ones: list[Answer], others: list[Answer]) -> Finding | None:
     if found is None:
         return None
     step, name, point = found
-    one, other = value_at(ones[step], name, point), value_at(others[step], name, point)
-    detail = (
-        f"{how} {name} of point {point + 1} in step {step + 1} is {other}; expected {one} as before"
-    )
+    one, other = told_apart(ones[step], others[step], name, point)
+    place = f"{name} of point {point + 1} in increment {step + 1}"
+    detail = f"{how} {place} is {other}; expected {one} as before"
     return Finding(detail, hint=HINT, figures={"step": step, "point": point})

@@ -183,6 +183,16 @@ def dimensions(subject: Subject) -> Iterator[Finding]:
             or _where(arguments.signature_of(subject), i),
             hint=f"Declare {name.upper()}({','.join(_modern(face, s) for s in argument.shape)}).",
         )
+    for outside in arguments.subscripts_outside(subject, unit):
+        i = positions[outside.name]
+        yield Finding(
+            f"{outside.text} lies outside of {outside.name.upper()} (argument {i + 1}), of which "
+            f"the {_ORDINALS[outside.dimension - 1]} subscript ends at {outside.most}: another "
+            "element is taken",
+            where=outside.where,
+            hint=f"The subscripts are {face.args[i].modern}"
+            f"({','.join(_modern(face, s) for s in face.args[i].shape)}), in this order.",
+        )
 
 
 def _otherwise(extents: tuple, argument: abi.Arg) -> str:

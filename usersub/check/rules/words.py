@@ -23,6 +23,24 @@ def value_at(answer: Answer, name: str, point: int) -> str:
     return values(getattr(answer, name)[..., point])
 
 
+def told_apart(one: Answer, other: Answer, name: str, point: int) -> tuple[str, str]:
+    """The values of one array of two answers at a point, with the digits that tell them apart."""
+    if name == "pnewdt":
+        return value_at(one, name, point), value_at(other, name, point)
+    pair = [np.asarray(getattr(a, name)[..., point], dtype=float).ravel("F") for a in (one, other)]
+    largest = max((float(abs(v)) for a in pair for v in a if np.isfinite(v)), default=0.0)
+    for digits in (4, 6, 9, 12):
+        # What is left of turning the axes is told as zero, unless that is the difference.
+        texts = [
+            [f"{0.0 if abs(v) <= 1e-13 * largest else v:.{digits}g}" for v in array]
+            for array in pair
+        ]
+        if texts[0] != texts[1]:
+            one_text, other_text = (t[0] if len(t) == 1 else f"({', '.join(t)})" for t in texts)
+            return one_text, other_text
+    return value_at(one, name, point), value_at(other, name, point)
+
+
 def values(array: np.ndarray | Sequence[float] | float) -> str:
     """Numbers in words: a single one as it is, several in brackets."""
     flat = np.asarray(array).ravel(order="F")

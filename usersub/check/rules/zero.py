@@ -12,6 +12,7 @@ from usersub.check import cases
 from usersub.check.case import Case, Step
 from usersub.check.probing.response_of import friction, motions, preferred_directions, tolerance
 from usersub.check.respond.answer import Answer
+from usersub.check.respond.explicit import AMPLE
 from usersub.check.rule import FRICTION, CannotCheck, Finding, NotApplicable, rule
 from usersub.check.rules.figures import values
 from usersub.check.subject import Subject
@@ -20,6 +21,8 @@ from usersub.errors import Error, RoutineError
 
 _DIVISION = "look before every division by the {what} whether it is zero"
 _WAY = (0.8, 0.6)
+#: Decades below the scale of time in which a slide without time is looked at too.
+_TIMES = {"double": range(-4, 31, 2), "single": range(-4, 13, 2)}
 
 
 def not_finite(answer: Answer) -> str:
@@ -174,6 +177,38 @@ def _no_time(subject: Subject) -> Iterator[Case]:
 )
 def time_step(subject: Subject, case: Case) -> Finding | None:
     """All increments have no time, without and with motion."""
-    return finite(
+    found = finite(
         subject, case, "with a time increment of 0", "time increment", lambda s: s.dt == 0
     )
+    return found or _cut_off(subject, case)
+
+
+def _cut_off(subject: Subject, case: Case) -> Finding | None:
+    """A slide (explicit) whose friction is the stick force without time, and far from it in any
+    time: MIN of NaN or of infinity and the stick force is the stick force."""
+    load = abs(case.steps[-1].load[0])
+    if subject.interface.solver != "explicit" or any(s.dt for s in case.steps) or not load:
+        return None
+    size, stick = _last_size(subject, case), AMPLE * load
+    if size is None or size < 0.99 * stick:
+        return None
+    times = [subject.scales.dt * 10.0**-k for k in _TIMES[subject.precision]]
+    others = [
+        _last_size(subject, case.but(steps=tuple(replace(s, dt=t) for s in case.steps)))
+        for t in times
+    ]
+    most = max((o for o in others if o is not None), default=stick)
+    if None in others or most > stick / 3.0:
+        return None
+    return Finding(
+        f"with a time increment of 0 friction is the stick force, {size:.6g}; the same motion in "
+        f"any other time has {most:.6g} at most: MIN has hidden that the rate is no number",
+        hint=_DIVISION.format(what="time increment"),
+    )
+
+
+def _last_size(subject: Subject, case: Case) -> float | None:
+    answer = subject.respond(case)[-1]
+    if answer.failure is not None or answer.friction is None:
+        return None
+    return float(np.linalg.norm(answer.friction[:, 0]))

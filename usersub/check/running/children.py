@@ -15,13 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from usersub.check.case import Case
-from usersub.check.clocks import processor_time
+from usersub.check.clocks import is_late, processor_time
 from usersub.check.running.inside import Channel
 
 #: Bytes for the case under way, and those of the output that are kept.
 CASE_BYTES, _KEPT = 1 << 18, 4000
-#: By the clock, a child may take this many times the time that it may compute.
-_PATIENCE = 10.0
 #: Looks one after the other at which an idle child over its time counts as one that never ends.
 _IDLE_LOOKS = 5
 
@@ -113,8 +111,7 @@ class Child:
             return False
         computed = self._computed() - self.computed_before
         self.idle_looks = self.idle_looks + 1 if self._idle() else 0
-        tired = lived > _PATIENCE * self.seconds or self.idle_looks >= _IDLE_LOOKS
-        return tired or computed > 0.9 * self.seconds
+        return self.idle_looks >= _IDLE_LOOKS or is_late(lived, computed, self.seconds)
 
     def _idle(self) -> bool:
         """Whether it sleeps without a child that it could wait for, as it does in a deadlock."""

@@ -22,6 +22,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from usersub.check.running import begin
+
 if TYPE_CHECKING:
     from usersub.check.case import Case
 
@@ -104,6 +106,7 @@ def _plain(value: Any) -> Any:
 def enter(channel: Channel, work: Callable, home: Path, seconds: float) -> None:
     """Makes the process harmless, does the work, looks at the heap and ends. Never returns."""
     _settle(home, seconds)
+    begin.in_child(home)
     try:
         work(channel)
     except BaseException as error:

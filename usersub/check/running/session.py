@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from usersub.check.reports.heads import head_of, language_of
 from usersub.check.reports.report import Report, Result
 from usersub.check.rule import FAIL, NOT_APPLICABLE, PASS, SKIP, Finding, Rule
-from usersub.check.running import expectations, isolate, verdicts
+from usersub.check.running import begin, expectations, isolate, other_values, verdicts
 from usersub.check.running.consequences import explain
 from usersub.check.running.deaths import Deaths
 from usersub.check.running.expectations import Expectation
@@ -35,6 +35,8 @@ _BY_SOURCE = ("signature", "symbols")
 #: Seconds for a rule at most, after one was not ready in time, and where the routine does not
 #: return.
 _LONGEST, _HURRIED, _LOOPS = 6.0, 2.0, 0.4
+#: What is said of a finding that may be about values that no surface has.
+_CHOSEN = "the properties were chosen here, so look again with those of your model (--props)"
 #: Share of the time in which sizes and scales are looked for.
 _SHARE_OF_SEARCH = 0.5
 
@@ -73,7 +75,13 @@ class Session:
         if not self._prepared:
             self._prepared = True
             _import_before_forks(self._subject)
-            self._subject = prepared(self._subject, _SHARE_OF_SEARCH * self.seconds)
+            beginning = begin.found(self._subject)
+            self._subject = self._subject.but(beginning=beginning)
+            begin.use(self._subject)
+            found = prepared(self._subject, _SHARE_OF_SEARCH * self.seconds)
+            told = begin.origin(beginning)
+            self._subject = found.but(origin={**found.origin, **told})
+        begin.use(self._subject)
         return self._subject
 
     # All rules.
@@ -93,6 +101,7 @@ class Session:
         self._deaths.settle(rules, results)
         self._told.settle(subject, rules, results)
         explain(subject, results, list(results))
+        self._try_other_values(rules, results)
         ordered = tuple(self._dressed(rule, results[rule.id]) for rule in rules)
         notes = tuple(self._notes(rules))
         return Report(head_of(subject), ordered, notes, time.monotonic() - begin, subject)
@@ -183,6 +192,23 @@ class Session:
         assert death is not None
         return verdicts.result(rule, SKIP, f"the routine {death.words}", outcome.seconds)
 
+    def _try_other_values(self, rules: Sequence[Rule], results: dict[str, Result]) -> None:
+        """Findings that do not show at other properties are warnings, if nobody gave these."""
+        if not other_values.are_chosen(self.subject):
+            return
+        for rule in rules:
+            found = results[rule.id]
+            suspect = found.verdict == FAIL and found.severity == "error"
+            if not suspect or rule.group not in other_values.GROUPS or self._late:
+                continue
+            props = other_values.harmless(self.subject, rule, self._limit(rule))
+            if props is not None:
+                shown = ",".join(f"{p:g}" for p in props)
+                hint = f"{found.hint.rstrip('.')}; with --props {shown} the rule passes".lstrip(
+                    "; "
+                )
+                results[rule.id] = found.but(severity="warning", hint=hint)
+
     def _notes(self, rules: Sequence[Rule]) -> Iterator[str]:
         lists = (*self.skip, *self.expect)
         if lists:
@@ -240,6 +266,12 @@ class Session:
             if case is None and result.case is not None and result.case.props is not None:
                 subject = subject.but(props=result.case.props)  # it shows with these alone
             changes["reproduction"] = reproduction(subject, rule.id, case)
+            if (
+                other_values.are_chosen(subject)
+                and rule.group in other_values.GROUPS
+                and result.hint
+            ):
+                changes["hint"] = f"{result.hint.rstrip('.')}; {_CHOSEN}"
         return result.but(**changes)
 
 

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from usersub.check.rule import CannotCheck, NotApplicable
@@ -131,6 +133,52 @@ def line_of_declaration(subject: Subject, name: str) -> str:
             if found := declared.place(unit, source.text(), name, dimensions):
                 return f"{unit.file}:{found}"
     return ""
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A constant subscript beyond a dimension: argument, reference as written, place."""
+
+    name: str
+    text: str
+    dimension: int
+    most: int
+    where: str
+
+
+_OUTSIDE = re.compile(r"^Array reference is out of bounds \((\d+) > (\d+)\) in dimension (\d+)")
+
+
+def subscripts_outside(subject: Subject, unit: declared.DeclaredUnit) -> Iterator[Outside]:
+    """Constant subscripts of arguments beyond a dimension that is not the last (Fortran): the last
+    says nothing of where elements lie, and is 1 in old code.
+
+    Raises:
+        CannotCheck: it does not compile.
+    """
+    source = source_of(subject)
+    try:
+        warned = source.warnings()
+        lines = fortran_text.lines_of(source.path.read_bytes().decode("latin-1"))
+    except (Error, OSError) as error:
+        raise CannotCheck(str(error)) from error
+    name, file = subject.interface.name, source.path.name
+    units = [u for u in fortran_text.units(source.text(), source.free, file) if u.name == name]
+    for warning in warned:
+        said = _OUTSIDE.match(warning.words)
+        own = file == warning.file and any(u.line <= warning.line <= u.end for u in units)
+        if said is None or not own or warning.line > len(lines):
+            continue
+        index, most, dimension = map(int, said.groups())
+        for found in re.finditer(r"(\w+)\s*\(([^()]*)\)", lines[warning.line - 1]):
+            variable = unit.variables.get(found[1].lower())
+            subscripts = [s.strip() for s in found[2].split(",")]
+            if found[1].lower() not in unit.dummies or variable is None:
+                continue
+            if not dimension < len(variable.extents) == len(subscripts):
+                continue
+            if subscripts[dimension - 1] == str(index):
+                yield Outside(found[1].lower(), found[0], dimension, most, warning.where)
 
 
 def variant(subject: Subject, *options: str, text: str | None = None) -> Subject | None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""COMMON blocks and modules of Fortran that hold constants: nothing in the file changes them after
-they have begun with the values of a DATA statement or of their declaration."""
+"""COMMON blocks of Fortran that hold constants: nothing in the file changes them after they have
+begun with the values of a DATA statement, or were filled where the solver starts the analysis."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _BLOCK = re.compile(r"^COMMON /(\w+)/")
 #: The parts of a COMMON statement: a name between slashes and the variables behind it.
 _COMMON = re.compile(r"/(\w*)/([^/]*)")
+#: Entries that the solver calls before the first contact.
+_START = ("uexternaldb", "vexternaldb")
 #: Statements in which a name need not stand before "=" to be changed.
 _CHANGES = re.compile(r"\b(?:read|call|equivalence|entry|namelist|inquire|open|pointer|allocate)\b")
 #: Statements that say how a variable begins, or declare it.
@@ -29,7 +31,7 @@ _BEGINS = re.compile(
 
 
 def constant(subject: Subject, static: Static) -> bool:
-    """Whether a COMMON block that a BLOCK DATA fills is changed nowhere in the file.
+    """Whether a COMMON block that a BLOCK DATA or UEXTERNALDB fills is changed nowhere else.
 
     In doubt it is not: a block that other files may have, too, counts if this file fills it.
     """
@@ -49,13 +51,13 @@ def constant(subject: Subject, static: Static) -> bool:
         s.code.startswith("data") and any(re.search(rf"\b{n}\b", s.text) for n in names)
         for unit in units if unit.kind.startswith("block") for s in unit.statements
     )  # fmt: skip
-    changed = any(
-        _changes(s, names)
-        for unit in units
-        for s in unit.statements
-        if _variables(unit, block) or unit.kind == "module"
-    )
-    return filled and not changed
+    changing = [
+        unit.name.lower() for unit in units
+        if (_variables(unit, block) or unit.kind == "module")
+        and any(_changes(s, names) for s in unit.statements)
+    ]  # fmt: skip
+    filled = filled or any(name in _START for name in changing)
+    return filled and all(name in _START for name in changing)
 
 
 def _variables(unit: fortran_text.Unit, block: str) -> set[str]:

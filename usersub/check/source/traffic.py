@@ -67,9 +67,11 @@ def _read(reader: int, seconds: float) -> bytes:
 
 def _measure(call: RawCall, folder: str) -> tuple[list[int], list[int]]:
     """Bytes read and written during a few calls, and during many."""
+    from usersub.check.running import begin
     from usersub.routine import messages
 
     os.chdir(folder)
+    begin.copy_files(Path(folder))
     sink = os.open("streams", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
     os.dup2(sink, 1)
     os.dup2(sink, 2)

@@ -26,6 +26,9 @@ FIRST = (0.3, 0.2, 0.1, 0.05, 0.4, 0.25, 0.15, 0.08, 0.35, 0.12)
 #: What is tried for one property after the other.
 TRIED = (1.0, 0.3, 10.0, 1e-2, 100.0, 1e-3, 2.0, 1e3, 1e4, 0.0, 1e-4, 1e6)
 
+#: How it is told that nobody gave the properties.
+CHOSEN = "values chosen"
+
 #: Bounds of friction over load between which it is ordinary.
 _LOW, _HIGH = 0.05, 1.2
 #: Cost of friction that is ordinary but for its sign.
@@ -171,11 +174,11 @@ def choose(
     if lowest not in (0.0, AGAINST):
         return best, "no values were found at which friction is ordinary"
     best, idle = _all_matter(best, left)
-    words = "values chosen so that friction lies along the motion and is of the size of the load"
+    words = f"{CHOSEN} so that friction lies along the motion and is of the size of the load"
     if lowest == AGAINST:
         words = (
-            "values chosen so that friction is of the size of the load; it has the wrong sign at "
-            "all values that were tried"
+            f"{CHOSEN} so that friction is of the size of the load; it has the wrong sign at all "
+            "values that were tried"
         )
     if idle:
         listed = ", ".join(f"props({k + 1})" for k in idle)

@@ -115,12 +115,16 @@ def reversals(subject: Subject, quick: bool) -> Iterator[History]:
     count = 100 if quick else 1000
     factors = np.array([1e-9, 1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0, 1e6])
     way = [(0.8, 0.6), *([(-1.6, -1.2), (1.6, 1.2)] * (count // 2))]
-    yield history_of(subject, "reversal", [f"{f:g} slips" for f in factors], slip=factors, way=way)
+    made = history_of(subject, "reversal", [f"{f:g} slips" for f in factors], slip=factors, way=way)
+    made.period = 2
+    yield made
     skew = [(1.0, 0.0), *([(-1.0, 1.0), (1.0, -1.0)] * (count // 2))]
-    yield history_of(
+    made = history_of(
         subject, "reversal", [f"{f:g} slips, skew" for f in factors[:-1]], slip=factors[:-1],
         way=skew,
     )  # fmt: skip
+    made.period = 2
+    yield made
 
 
 def holds(subject: Subject, quick: bool) -> Iterator[History]:

@@ -7,7 +7,9 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
+import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -135,6 +137,11 @@ def _worst(limits: Sequence[Limit]) -> str:
     return f"{100 * max(ratios):.2g} %" if ratios else "none was measured"
 
 
+def _told(done: int, whole: int, words: str) -> None:
+    """A line of progress, on what is watched and in a log."""
+    print(f"{done}/{whole} {words}", file=sys.stderr, flush=True)
+
+
 def main() -> None:
     """Runs matrix and limits and writes the chapter."""
     from usersub.study import stability
@@ -144,10 +151,15 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="where stability.md is written")
     parser.add_argument("--quick", action="store_true", help="fewer values, shorter runs")
     parser.add_argument("--language", action="append", help="of shipped laws; by default all")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
+    parser.add_argument("--keep", type=Path, help="folder of what is finished, to go on from there")
     asked = parser.parse_args()
     languages = tuple(asked.language or LANGUAGES)
-    cells = stability.matrix(languages=languages, quick=asked.quick)
-    limits = stability.limits(quick=asked.quick)
+    cells = stability.matrix(
+        languages=languages, quick=asked.quick, jobs=asked.jobs, progress=_told,
+        keep=asked.keep and asked.keep / "stability.jsonl",
+    )  # fmt: skip
+    limits = stability.limits(quick=asked.quick, progress=_told, jobs=asked.jobs)
     print(write(cells, limits, stamp(), asked.folder))
 
 

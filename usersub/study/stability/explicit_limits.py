@@ -21,7 +21,7 @@ class Block:
 
     def __init__(
         self, law: str, props: tuple[float, ...], interface: str, precision: str = "double",
-        states: int = 0, load: float = 1.0, **settings: Any,
+        states: int = 0, load: float = 1.0, warm: float = 20.0, **settings: Any,
     ) -> None:  # fmt: skip
         from usersub import ExplicitDriver, Scene, laws
 
@@ -44,6 +44,9 @@ class Block:
             arrays["stick_force"] = np.array([1e30], real)
         if settings.get("enforcement") == "kinematic":
             arrays["mass"] = np.ones(1, real)
+        for side in ("temperature_secondary", "temperature_main"):
+            if side in self.driver.layout.ports:
+                arrays[side] = np.full(self.driver.layout.shapes[side], warm, real, order="F")
         self.arrays = {k: a for k, a in arrays.items() if k in self.driver.layout.ports}
         self.driver.bind(**self.arrays)
 

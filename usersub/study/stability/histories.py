@@ -29,6 +29,7 @@ class History:
         refused: why there is nothing to run, else "".
         valid: whether the law itself allows its properties; a host can give others.
         repeats: how often the increments are run.
+        period: of the increments after the first, in increments; 0 where there is none.
     """
 
     case: str
@@ -43,6 +44,7 @@ class History:
     refused: str = ""
     valid: bool = True
     repeats: int = 1
+    period: int = 0
 
     @property
     def points(self) -> int:

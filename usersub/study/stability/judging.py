@@ -18,8 +18,11 @@ ULPS = 4.0
 #: Energy that rounding may create, in units in the last place of the work done, per increment.
 _WORK_ULPS = 32.0
 
-_NAN = re.compile(r"= -?nan\b", re.IGNORECASE)
-_OVERFLOW = re.compile(r"returned (?:TAU|fTangential)[^=]*= -?inf\b")
+#: A number in a message, "= nan" or "(fCoef nan, ..."; the word of a sentence is "NaN".
+_NAN = re.compile(r"(?<![\w.])-?nan\b")
+_OVERFLOW = re.compile(r"returned (?:TAU|fTangential)[^=]*= -?inf\b|pressure overflows")
+#: A coefficient is not bounded by a stick force, only by its law.
+_COEFFICIENT = re.compile(r"returned fCoef[^=]*= -?inf\b|fCoef [^,]*\binf\b")
 
 
 def judge(trace: Trace) -> Iterator[Cell]:
@@ -31,7 +34,11 @@ def judge(trace: Trace) -> Iterator[Cell]:
             verdict, reason, count = "refused", history.refused, 0
         elif point in trace.refused:
             count, error = trace.refused[point]
-            verdict, reason = refusal(error, history.valid and _is_bounded(trace, point))
+            verdict, reason = refusal(
+                error,
+                history.valid and _is_bounded(trace, point),
+                history.valid and _has_law_bound(trace, point),
+            )
             if history.valid and _NAN.search(reason):
                 verdict, reason = "fails", f"NaN from finite input: {reason}"
         else:
@@ -47,14 +54,15 @@ def judge(trace: Trace) -> Iterator[Cell]:
         )  # fmt: skip
 
 
-def refusal(error: Error, bounded: bool) -> tuple[str, str]:
+def refusal(error: Error, bounded: bool, by_law: bool) -> tuple[str, str]:
     """Whether a refusal is in order: a crash, an endless loop, an overflow before the bound is not.
 
     Args:
         bounded: whether the friction has a finite bound.
+        by_law: whether the law itself has one, and so its coefficient.
     """
     words = str(error)
-    if bounded and _OVERFLOW.search(words):
+    if (bounded and _OVERFLOW.search(words)) or (by_law and _COEFFICIENT.search(words)):
         return "fails", f"overflow before the bound: {words}"
     if error.status == VALUES["ROUTINE_CRASHED"]:
         return "fails", words
@@ -63,14 +71,18 @@ def refusal(error: Error, bounded: bool) -> tuple[str, str]:
 
 def _is_bounded(trace: Trace, point: int) -> bool:
     """Whether the friction of the refused increment has a finite bound."""
-    history, (step, _) = trace.history, trace.refused[point]
-    if step >= len(history.dt):
-        return False
+    history = trace.history
     if not history.subject.standard and _has_stick_bound(trace) and not history.subject.settings:
         return history.stick is None or bool(np.isfinite(history.stick[point]))
-    return history.subject.bound is not None and bool(
-        np.isfinite(_law_bound(trace, point, step, step))
-    )
+    return _has_law_bound(trace, point)
+
+
+def _has_law_bound(trace: Trace, point: int) -> bool:
+    """Whether the law bounds the friction of the refused increment."""
+    step, _ = trace.refused[point]
+    if step >= len(trace.history.dt) or trace.history.subject.bound is None:
+        return False
+    return bool(np.isfinite(_law_bounds(trace, point)[step]))
 
 
 def _fault(trace: Trace, point: int) -> str:
@@ -87,27 +99,32 @@ def _beyond(trace: Trace, point: int, done: np.ndarray) -> str:
     subject = trace.history.subject
     eps = float(np.finfo(np.float64 if subject.precision == "double" else np.float32).eps)
     least = 5e-324 if subject.precision == "double" else 1.4e-45
-    for i in map(int, np.flatnonzero(done)):
-        size = float(np.hypot(*trace.friction[i, :, point]))
-        bounds = []
-        if subject.bound is not None:
-            first = i if subject.follows else 0
-            bounds.append(("the law's bound", _law_bound(trace, point, first, i)))
-        if trace.stick is not None and _has_stick_bound(trace):
-            bounds.append(("the stick force", float(trace.stick[i, point])))
-        for what, bound in bounds:
-            if size > bound * (1.0 + ULPS * eps) + ULPS * least:
-                return f"friction {size:.17g} in increment {i + 1}, more than {what}, {bound:.17g}"
+    size = np.hypot(*trace.friction[:, :, point].T)
+    bounds = []
+    if subject.bound is not None:
+        own = _law_bounds(trace, point)
+        bounds.append(("the law's bound", own if subject.follows else np.maximum.accumulate(own)))
+    if trace.stick is not None and _has_stick_bound(trace):
+        bounds.append(("the stick force", trace.stick[:, point]))
+    for what, bound in bounds:
+        with np.errstate(over="ignore", invalid="ignore"):
+            above = np.flatnonzero(done & (size > bound * (1.0 + ULPS * eps) + ULPS * least))
+        if above.size:
+            i = above[0]
+            return (
+                f"friction {size[i]:.17g} in increment {i + 1}, more than {what}, {bound[i]:.17g}"
+            )
     return ""
 
 
-def _law_bound(trace: Trace, point: int, first: int, last: int) -> float:
-    """The largest bound of some increments."""
+def _law_bounds(trace: Trace, point: int) -> np.ndarray:
+    """The law's bound in each increment, of the pressure of this increment."""
     subject = trace.history.subject
     assert subject.bound is not None
-    loads = trace.history.load[first : last + 1, point]
-    found = max(subject.bound(_as(float(load), subject.precision)) for load in loads)
-    return found if np.isfinite(found) else np.inf
+    loads = trace.history.load[:, point].tolist()
+    known = {load: subject.bound(_as(load, subject.precision)) for load in set(loads)}
+    found = np.array([known[load] for load in loads], float)
+    return np.where(np.isfinite(found), found, np.inf)
 
 
 def _growth(trace: Trace, point: int) -> tuple[str, str]:
@@ -115,12 +132,9 @@ def _growth(trace: Trace, point: int) -> tuple[str, str]:
     subject = trace.history.subject
     if subject.bound is None or subject.follows:
         return "stable", ""
-    worst = 1.0
-    for i in range(len(trace.history.dt)):
-        bound = _law_bound(trace, point, i, i)
-        size = float(np.hypot(*trace.friction[i, :, point]))
-        if 0 < bound < size:
-            worst = max(worst, size / bound)
+    bound, size = _law_bounds(trace, point), np.hypot(*trace.friction[:, :, point].T)
+    above = (bound > 0) & (bound < size)
+    worst = float(np.max(size[above] / bound[above], initial=1.0))
     if worst < 1.0 + 1e-6:
         return "stable", ""
     return (
@@ -144,7 +158,8 @@ def _has_stick_bound(trace: Trace) -> bool:
 
 
 def _created(trace: Trace, point: int, done: np.ndarray) -> str:
-    """Energy that came out of a contact under constant pressure, more than ever went in."""
+    """Energy that came out of a contact under constant pressure, more than ever went in; or out of
+    the second half of a cyclic history, where nothing is left of the beginning to be given back."""
     history, subject = trace.history, trace.history.subject
     loads = history.load[done, point]
     if not subject.closed or loads.size == 0 or np.any(loads != loads[0]) or loads[0] <= 0:
@@ -157,6 +172,12 @@ def _created(trace: Trace, point: int, done: np.ndarray) -> str:
         work = np.sum((motion / scale[0]) * (friction / scale[1]), axis=1)
         sizes = np.hypot(*(motion / scale[0]).T) * np.hypot(*(friction / scale[1]).T)
         total, allowed = np.cumsum(work), _WORK_ULPS * eps * np.cumsum(sizes)
+        if history.period and len(work) > 4 * history.period:
+            cycles = len(work) // (2 * history.period)
+            late = slice(len(work) - cycles * history.period, len(work))
+            made = float(np.sum(work[late]))
+            if made < -_WORK_ULPS * eps * float(np.sum(sizes[late])):
+                return f"energy is created: work {made:.3g} in the last {cycles} cycles"
     worst = np.flatnonzero(total < -allowed)
     if worst.size:
         i = worst[0]

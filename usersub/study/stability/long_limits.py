@@ -113,11 +113,3 @@ def _aged_at_start(props: tuple[float, ...]) -> float:
     """Age after the slide of 1e-2 less the elastic slip, in which the old contacts are renewed."""
     dt, slip = 1e-3, 1e-2 - 1e-5
     return props[4] * dt / slip
-
-
-def all_of(quick: bool) -> Iterator[Limit]:
-    """All long runs."""
-    count = FEW if quick else MANY
-    for precision in ("double", "single"):
-        yield from explicit_cycles(count, precision)
-    yield from standard_holds(count)

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from usersub.study.stability import cases, judging, running, subjects
+from usersub.study.stability import cases, judging, parts, running, subjects
 from usersub.study.stability.cell import Cell
 from usersub.study.stability.subjects import LANGUAGES, PRECISIONS, Scales, Subject
 
@@ -30,6 +32,8 @@ def matrix(
     states: int = 0,
     scales: Scales | None = None,
     progress: Progress | None = None,
+    jobs: int = 1,
+    keep: Path | None = None,
 ) -> list[Cell]:
     """Runs stiff and extreme cases; a cell for each.
 
@@ -42,6 +46,9 @@ def matrix(
         drivers: whether enforcement by the drivers is in it; by default with all laws only.
         scales: ordinary sizes of the routine.
         progress: is told how many subjects are done, how many there are, and which comes.
+        jobs: processes at a time; a user's routine runs in this one.
+        keep: a file in which finished subjects are kept. What stands there of the same sources is
+            not run again.
 
     Returns:
         Cells in a fixed order; the same cells at each run.
@@ -53,11 +60,19 @@ def matrix(
     from usersub.routine import messages
 
     before = messages._receiver
-    chosen = list(_subjects(laws, routine, languages, precisions, drivers, props, states, scales))
+    shipped: list[Subject] = []
+    if routine is None or laws is not None:
+        shipped = list(chosen(laws, languages, precisions, drivers))
+    asked = (None if laws is None else tuple(laws), tuple(languages), tuple(precisions), drivers,
+             quick)  # fmt: skip
     messages_to(lambda *_: None)  # what routines say stands in the reasons
     try:
         with np.errstate(all="ignore"):  # of routines that run uncompiled to explain themselves
-            return _run(chosen, quick, progress)
+            cells = []
+            if routine is not None:
+                own = subjects.of_routine(routine, props, states, precisions, scales or Scales())
+                cells = _run(list(own), quick, progress)
+            return cells + _shipped(asked, shipped, progress, jobs, keep)
     finally:
         messages_to(before)
 
@@ -73,6 +88,35 @@ def _run(chosen: Sequence[Subject], quick: bool, progress: Progress | None) -> l
     return cells
 
 
+def _shipped(
+    asked: parts.Asked, all_of: Sequence[Subject], progress: Progress | None, jobs: int,
+    keep: Path | None,
+) -> list[Cell]:  # fmt: skip
+    """Laws and drivers, here or in several processes; what is kept is not run again."""
+    with ExitStack() as stack:
+        kept = stack.enter_context(parts.Kept(keep, repr(asked)))
+        found = {
+            number: [Cell(**row) for row in kept.found[str(number)]]  # type: ignore[arg-type]
+            for number in range(len(all_of))
+            if str(number) in kept.found
+        }
+        missing = [number for number in range(len(all_of)) if number not in found]
+        several = jobs > 1 and len(missing) > jobs
+        coming = (
+            parts.in_processes(asked, missing, jobs)
+            if several
+            else ((number, of_subject(all_of[number], asked[-1])) for number in missing)
+        )
+        for number, cells in coming:
+            found[number] = cells
+            kept.add(str(number), [cell.as_dict() for cell in cells])
+            if progress is not None:
+                subject = all_of[number]
+                words = f"{subject.name} {subject.interface} {subject.language}"
+                progress(len(found), len(all_of), words)
+    return [cell for number in range(len(all_of)) for cell in found[number]]
+
+
 def of_subject(subject: Subject, quick: bool = False) -> list[Cell]:
     """All cases of one subject."""
     found: list[Cell] = []
@@ -86,20 +130,13 @@ def of_subject(subject: Subject, quick: bool = False) -> list[Cell]:
     return found
 
 
-def _subjects(
+def chosen(
     laws: Sequence[str] | None,
-    routine: Routine | None,
     languages: Sequence[str],
     precisions: Sequence[str],
     drivers: bool | None,
-    props: Sequence[float],
-    states: int,
-    scales: Scales | None,
 ) -> Iterator[Subject]:
-    if routine is not None:
-        yield from subjects.of_routine(routine, props, states, precisions, scales or Scales())
-        if laws is None:
-            return
+    """Shipped laws, and drivers: by default with all laws only."""
     yield from subjects.of_laws(laws, languages, precisions)
     if drivers or (drivers is None and laws is None):
         yield from subjects.of_drivers(languages, precisions)

@@ -78,10 +78,12 @@ USUB_MAY_BE_UNUSED static inline usub_real usub_decay_of_power(double x, double 
                                                                double exponent, usub_real *slope) {
   *slope = 0;
   if (!(x > start)) {
-    if (x == start && exponent == 1)
+    if (x == start && exponent == 1 && end > start)
       *slope = (usub_real)(-1 / (end - start));
     return x <= start ? 1 : (usub_real)x;
   }
+  if (!(end > start)) /* a step */
+    return 0;
   const usub_pair power = usub_pair_exp(usub_log_of_power(usub_share(x, start, end), exponent));
   const double decay = exp(-power.high);
   if (!(decay > 0))
@@ -95,7 +97,7 @@ USUB_MAY_BE_UNUSED static inline usub_real usub_drop_of_power(double x, double s
                                                               double exponent, usub_real *slope) {
   *slope = 0;
   if (!(x > start)) {
-    if (x == start && exponent == 1)
+    if (x == start && exponent == 1 && end > start)
       *slope = (usub_real)(-1 / (end - start));
     return x <= start ? 1 : (usub_real)x;
   }
