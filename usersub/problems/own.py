@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from usersub import laws
+from usersub.errors import SceneError
 from usersub.problems.choose import one_of
 
 if TYPE_CHECKING:
@@ -48,6 +49,17 @@ def updated(law: str, update: str) -> str:
     name, updates = UPDATES.get(law, ("", {}))
     one_of("update", [update], updates, f"law {law}")
     return name
+
+
+def check_steps(problem: str, law: str, steps: int | None, update: str) -> None:
+    """Whether a problem can run so many increments, with this update of the state ("" for none).
+
+    Raises:
+        SceneError: less than one increment, or the law has no such update.
+    """
+    if steps is not None and steps < 1:
+        raise SceneError(f"problem {problem}: steps is {steps}, expected 1 or more")
+    updated(law, update)
 
 
 def path(law: str, language: str) -> Path:

@@ -152,7 +152,11 @@ def run(
     update: str = "",
 ) -> Outcome:
     """One run against the closed forms."""
-    _check(law, method, steps, update)
+    own.check_steps("P13", law, steps, update)
+    if update and (steps is None or method != "start"):
+        raise SceneError(
+            f"problem P13: the update '{update}' needs steps, and is for 'start' alone"
+        )
     props, tolerance = _props(law, method == "start"), _TOLERANCES[precision]
     if update:
         theta = own.UPDATES[law][1][update]
@@ -168,17 +172,6 @@ def run(
         "P13", routine, law, precision, method, path, runner(path, law, steps), tolerance,
         length / _RATE if stepped else 0.4, error_of,
     )  # fmt: skip
-
-
-def _check(law: str, method: str, steps: int | None, update: str) -> None:
-    if steps is not None and steps < 1:
-        raise SceneError(f"problem P13: steps is {steps}, expected 1 or more")
-    if update:
-        own.updated(law, update)
-        if steps is None or method != "start":
-            raise SceneError(
-                f"problem P13: the update '{update}' needs steps, and is for 'start' alone"
-            )
 
 
 _METHODS = ("start", "loop")

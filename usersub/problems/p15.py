@@ -59,7 +59,9 @@ def run(
     update: str = "",
 ) -> Outcome:
     """One run against the closed forms."""
-    _check(law, steps, update)
+    own.check_steps("P15", law, steps, update)
+    if update and steps is None:
+        raise SceneError(f"problem P15: the update '{update}' needs steps")
     props, tolerance = [MU, A, B, 1.0, DISTANCE, DISTANCE / BEFORE], _TOLERANCES[precision]
     if law != "rate_state_regularised":
         props.append(1e-9)
@@ -84,15 +86,6 @@ def run(
         "P15", routine, law, precision, method, path, errors, tolerance,
         (slips[-1] - slips[-2]) / AFTER if len(slips) > 1 else slips[0] / AFTER, "coefficient",
     )  # fmt: skip
-
-
-def _check(law: str, steps: int | None, update: str) -> None:
-    if steps is not None and steps < 1:
-        raise SceneError(f"problem P15: steps is {steps}, expected 1 or more")
-    if update:
-        own.updated(law, update)
-        if steps is None:
-            raise SceneError(f"problem P15: the update '{update}' needs steps")
 
 
 PROBLEM = Problem(

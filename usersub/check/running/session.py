@@ -194,12 +194,12 @@ class Session:
 
     def _try_other_values(self, rules: Sequence[Rule], results: dict[str, Result]) -> None:
         """Findings that do not show at other properties are warnings, if nobody gave these."""
-        if not other_values.are_chosen(self.subject):
+        if self._late or not other_values.are_chosen(self.subject):
             return
         for rule in rules:
             found = results[rule.id]
             suspect = found.verdict == FAIL and found.severity == "error"
-            if not suspect or rule.group not in other_values.GROUPS or self._late:
+            if not suspect or rule.group not in other_values.GROUPS:
                 continue
             props = other_values.harmless(self.subject, rule, self._limit(rule))
             if props is not None:
